@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/geometry/rigid_transform.hpp"
+
+namespace graspd {
+
+/// Why a hypothesis was rejected (paper 2.4.2), in the order in which the tests run.
+enum class Rejection : std::uint8_t {
+  none,
+  weak,          ///< Too little of the model confirmed even before refinement.
+  overlap,       ///< Overlap testing: too little of the visible model surface confirmed.
+  boundary,      ///< Boundary testing: model where the scene shows free space.
+  edge,          ///< Edge consistency testing.
+  below_plane,   ///< Spatial pose testing: below the plane or behind the background.
+  floating,      ///< Spatial pose testing: nothing could carry the part there.
+  intersecting,  ///< Spatial pose testing: inside an instance that was accepted before.
+  duplicate,     ///< The surface that confirms it was claimed by a better instance.
+  score,         ///< The final score is below the threshold.
+};
+inline constexpr std::size_t rejection_count = 10;
+
+/// A name for logs and tables, in lower case.
+[[nodiscard]] const char* rejection_name(Rejection rejection);
+
+/// The figures on which a hypothesis is judged; shares in [0, 1].
+struct Evidence {
+  float overlap = 0;   ///< Confirmed share of the surface that should be seen and was measured.
+  float visible = 0;   ///< Confirmed share of all the surface that faces the sensor from this pose.
+  float boundary = 0;  ///< Share of the model that stands where the scene shows free space.
+  float edge = 0;      ///< Share of the decided outline that agrees with the scene.
+  float below = 0;     ///< Share of the model below the plane or inside accepted instances.
+  float residual = 0;  ///< Root mean square distance of confirmed points (metres).
+};
+
+/// A part found, or a hypothesis that was rejected.
+struct Instance {
+  RigidTransform camera_from_part;
+  std::uint32_t bank = 0;  ///< Index into the banks of the request.
+  std::uint32_t view = 0;  ///< The view that voted for it.
+  float votes = 0;
+  float score = 0;  ///< In [0, 1]; higher is surer.
+  Evidence evidence;
+  Rejection rejection = Rejection::none;
+};
+
+/// What was cut or left out; a result with a flag is right, but not all there may have been.
+enum DetectionFlag : std::uint32_t {
+  flag_scene_points_cut = 1U << 0U,
+  flag_hypotheses_cut = 1U << 1U,
+  flag_instances_cut = 1U << 2U,
+  flag_deadline = 1U << 3U,  ///< The deadline passed: verified instances so far.
+};
+
+enum class Stage : std::uint8_t { preprocess, match, cluster, refine, verify };
+inline constexpr std::size_t stage_count = 5;
+[[nodiscard]] const char* stage_name(Stage stage);
+
+/// The outcome of one detection, in memory of the workspace: valid until the next one.
+struct Detections {
+  std::span<const Instance> instances;                      ///< Accepted, best score first.
+  std::span<const Instance> rejected;                       ///< Judged and rejected, with the reason.
+  std::array<std::uint32_t, rejection_count> rejections{};  ///< Hypotheses by reason.
+  std::array<std::int64_t, stage_count> stage_ns{};
+  std::uint32_t flags = 0;
+  std::uint32_t scene_points = 0;       ///< Points that took part in the matching.
+  std::uint32_t foreground_pixels = 0;  ///< Pixels left after the background was removed; 0: the bin is empty.
+  std::uint32_t measured_pixels = 0;    ///< Pixels of the frame that hold a depth at all.
+};
+
+}  // namespace graspd
