@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "core/geometry/depth_frame.hpp"
+#include "core/status.hpp"
+
+namespace graspd {
+
+/// The largest frame that a source can deliver: it fixes the storage for frames.
+struct FrameLimits {
+  int maximum_width = 0;
+  int maximum_height = 0;
+};
+
+/// Where depth frames come from.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  /// Takes the next frame: writes its depth to `storage` (at least the pixels of limits()) and points
+  /// `frame` at it. Never allocates. Fails with camera_lost, bad_frame or stale_frame; `frame` is
+  /// untouched then.
+  [[nodiscard]] virtual Status grab(std::span<float> storage, DepthFrame& frame) = 0;
+
+  [[nodiscard]] virtual FrameLimits limits() const = 0;
+
+  /// The bin without parts that belongs to the last frame grabbed, in memory of the source; empty `depth`
+  /// when there is none.
+  [[nodiscard]] virtual DepthFrame empty_bin() const = 0;
+
+  /// A name of the last frame grabbed, for the journal.
+  [[nodiscard]] virtual std::string_view frame_name() const = 0;
+};
+
+}  // namespace graspd
