@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -29,6 +30,36 @@ struct PpfFeature {
 
 [[nodiscard]] PpfFeature ppf_feature(const OrientedPoint& first, const OrientedPoint& second);
 
+/// What ppf_cell returns for a pair that is too far apart to have a cell.
+inline constexpr std::uint32_t no_ppf_cell = 0xFFFFFFFFU;
+
+/// The angle in [0, pi] of a cosine, to 7e-5 radians (Abramowitz and Stegun 4.4.45); free of branches
+/// and library calls, so that a loop over pairs can be vectorised. Cosines beyond +-1 are cut.
+[[nodiscard]] inline float angle_from_cosine(float cosine) {
+  const float x = std::min(std::abs(cosine), 1.0F);
+  const float polynomial = 1.5707288F + x * (-0.2121144F + x * (0.0742610F + x * -0.0187293F));
+  const float angle = std::sqrt(1.0F - x) * polynomial;
+  return cosine < 0.0F ? std::numbers::pi_v<float> - angle : angle;
+}
+
+/// The bin of an angle given by its cosine: equal steps of pi / angle_bins.
+[[nodiscard]] inline std::uint32_t angle_bin(float cosine, const PpfGrid& grid) {
+  const auto bins = static_cast<float>(grid.angle_bins);
+  const float bin = angle_from_cosine(cosine) * (bins * std::numbers::inv_pi_v<float>);
+  return static_cast<std::uint32_t>(std::clamp(bin, 0.0F, bins - 1.0F));
+}
+
+/// The cell of a feature, row-major over (distance, angle(n1, d), angle(n2, d), angle(n1, n2));
+/// no_ppf_cell beyond the grid's distances. Training and matching both call it.
+[[nodiscard]] inline std::uint32_t ppf_cell(const PpfFeature& feature, const PpfGrid& grid) {
+  const float step = feature.distance / grid.distance_step;
+  if (!(step < static_cast<float>(grid.distance_bins))) return no_ppf_cell;
+  std::uint32_t cell = static_cast<std::uint32_t>(step);
+  cell = cell * grid.angle_bins + angle_bin(feature.cos_n1_d, grid);
+  cell = cell * grid.angle_bins + angle_bin(feature.cos_n2_d, grid);
+  return cell * grid.angle_bins + angle_bin(feature.cos_n1_n2, grid);
+}
+
 /// Bins of the turn about the first point's normal, over 2 pi.
 inline constexpr std::uint32_t alpha_bins = 32;
 
@@ -54,9 +85,18 @@ inline constexpr std::uint32_t alpha_bins = 32;
 struct PpfEntry {
   std::uint32_t packed = 0;
 
+  static constexpr std::uint32_t maximum_references = 1U << 24U;
+  static constexpr std::uint32_t alpha_steps = 256;
+
   static PpfEntry pack(std::uint32_t reference, std::uint32_t alpha) { return {reference << 8U | alpha}; }
   [[nodiscard]] std::uint32_t reference() const { return packed >> 8U; }  ///< Index among the references of all views.
   [[nodiscard]] std::uint32_t alpha() const { return packed & 0xFFU; }    ///< 256 bins over [-pi, pi).
 };
+
+/// The bin of an angle in [-pi, pi] as PpfEntry keeps it.
+[[nodiscard]] inline std::uint32_t entry_alpha(float alpha) {
+  const float turn = (alpha + std::numbers::pi_v<float>)*(0.5F * std::numbers::inv_pi_v<float>);
+  return static_cast<std::uint32_t>(turn * static_cast<float>(PpfEntry::alpha_steps)) % PpfEntry::alpha_steps;
+}
 
 }  // namespace graspd
