@@ -1,29 +1,60 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
-#include "core/bank/bank.hpp"
-#include "core/detect/detections.hpp"
-#include "core/geometry/depth_frame.hpp"
 #include "core/geometry/rigid_transform.hpp"
 
 namespace graspd {
 
-/// Why an instance was found but not picked.
-enum class GraspRejection : std::uint8_t { none, no_grasp, tilt, reach, collision, opening };
+/// Why an instance was found but not picked. A grasp is put to the tests in the order of `opening`,
+/// `tilt`, `reach`, `collision`; an instance has the reason of its grasp that came furthest.
+enum class GraspRejection : std::uint8_t {
+  none,
+  no_grasp,   ///< The part file lists no grasp: graspd invents none, since it cannot know where a part may be held.
+  tilt,       ///< The tool would lean further from the vertical than allowed.
+  reach,      ///< The pick or the approach pose lies outside the robot's reach.
+  collision,  ///< On its way in the gripper would come too near to something that the sensor measured.
+  opening,    ///< The gripper cannot open that wide, or the cell has no tool of the kind that the grasp needs.
+};
 inline constexpr std::size_t grasp_rejection_count = 6;
+
+/// A name for logs and tables, in lower case.
 [[nodiscard]] const char* grasp_rejection_name(GraspRejection rejection);
 
 /// The grasp that was chosen. Frame `robot` is the camera's frame unless a calibration is configured.
 struct Pick {
   RigidTransform robot_from_tool;      ///< The tool when it holds the part.
   RigidTransform robot_from_approach;  ///< The tool before it moves in, back along its z.
-  RigidTransform robot_from_part;
-  float opening = 0;           ///< Metres between the jaws before closing.
-  float score = 0;             ///< The instance's score.
-  std::uint32_t instance = 0;  ///< Index into Detections::instances.
-  std::uint32_t grasp = 0;     ///< PartGrasp::number.
+  RigidTransform robot_from_part;      ///< Of the symmetric poses the one in which the part file's grasp is meant.
+  float opening = 0;                   ///< Metres between the jaws before closing.
+  float score = 0;                     ///< The instance's score.
+  float tilt = 0;                      ///< Radians between the tool's way in and straight down.
+  float clearance = 0;                 ///< Metres from the gripper's way in to the nearest measured obstacle; capped.
+  float value = 0;                     ///< What picks are ordered by: core/grasp/ranking.hpp.
+  std::uint32_t instance = 0;          ///< Index into Detections::instances.
+  std::uint32_t grasp = 0;             ///< PartGrasp::number.
+};
+
+/// What was cut; a result with a flag is right, but a better pick may have been left out.
+enum PickFlag : std::uint32_t {
+  flag_grasps_cut = 1U << 0U,  ///< An instance had more grasps than the workspace holds: those ranked last went.
+  flag_picks_cut = 1U << 1U,   ///< More instances than the workspace holds: those with the lowest scores went.
+};
+
+/// The outcome of one choice, in memory of the workspace: valid until the next one.
+struct PickResult {
+  bool found = false;
+  Pick best;                                ///< The first of `picks`; meaningful only when `found`.
+  std::span<const Pick> picks;              ///< The best pick of each pickable instance, highest value first.
+  std::span<const GraspRejection> reasons;  ///< One for each instance; `none` for the pickable ones.
+  std::uint32_t pickable = 0;               ///< Instances with a pick.
+  std::array<std::uint32_t, grasp_rejection_count> rejections{};  ///< Instances by reason.
+  GraspRejection main_reason =
+      GraspRejection::none;  ///< Of most instances that are not pickable; `none`: there are none.
+  std::uint32_t flags = 0;   ///< PickFlag bits.
 };
 
 }  // namespace graspd

@@ -1,0 +1,152 @@
+#include "core/grasp/candidates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "core/grasp/ranking.hpp"
+
+namespace graspd {
+namespace {
+
+/// Highest value first; equal values in the order of the part file, so that the order is total.
+bool ranks_before(const GraspCandidate& a, const GraspCandidate& b) {
+  if (a.value != b.value) return a.value > b.value;
+  if (a.grasp != b.grasp) return a.grasp < b.grasp;
+  return a.member < b.member;
+}
+
+/// Two tool poses that no robot could tell apart.
+bool same_pose(const RigidTransform& a, const RigidTransform& b) {
+  constexpr float same_place = 1e-4F;
+  constexpr float same_rotation = 1e-3F;
+  return (a.translation - b.translation).squaredNorm() < same_place * same_place &&
+         (a.rotation - b.rotation).squaredNorm() < same_rotation * same_rotation;
+}
+
+/// Keeps the best that fit: `candidates` is a heap with the lowest value on top.
+void keep_best(const GraspCandidate& candidate, FixedVector<GraspCandidate>& candidates) {
+  if (candidates.push_back(candidate)) {
+    std::push_heap(candidates.begin(), candidates.end(), ranks_before);
+  } else if (!candidates.empty() && ranks_before(candidate, candidates[0])) {
+    std::pop_heap(candidates.begin(), candidates.end(), ranks_before);
+    candidates[candidates.size() - 1] = candidate;
+    std::push_heap(candidates.begin(), candidates.end(), ranks_before);
+  }
+}
+
+/// The turn about the part's axis at which even turns of a grasp begin: where the tool leans least. Where it leans
+/// equally at every turn (the axis along the tool, or upright), where the tool is nearest to `preferred`.
+RigidTransform first_turn(const RigidTransform& robot_from_part, const PartGrasp& grasp, const SymmetryAxis& axis,
+                          const Vector3& down, const Matrix3& preferred) {
+  constexpr float leans_equally = 0.02F;
+  const Vector3 way_in = grasp.part_from_tool.rotation.col(2);
+  const Vector3 goal = robot_from_part.rotation.transpose() * down;
+  const float cosine = goal.dot(way_in) - goal.dot(axis.direction) * way_in.dot(axis.direction);
+  const float sine = goal.dot(axis.direction.cross(way_in));
+  if (std::hypot(cosine, sine) > leans_equally) return robot_from_part * turn_about(axis, std::atan2(sine, cosine));
+
+  static const std::array<RigidTransform, 1> identity{};
+  const RigidTransform part_as_preferred{preferred * grasp.part_from_tool.rotation.transpose(), Vector3::Zero()};
+  return nearest_symmetric(robot_from_part, part_as_preferred, {identity, true, axis});
+}
+
+/// The candidate for one symmetric pose of the part, with the figures that need no frame.
+GraspCandidate candidate_at(const RigidTransform& robot_from_part, const PartGrasp& grasp, const GraspTarget& target,
+                            const Vector3& down, const RigidTransform& preferred, const GraspParameters& parameters) {
+  GraspCandidate candidate;
+  candidate.robot_from_part = robot_from_part;
+  candidate.robot_from_tool = nearest_symmetric(robot_from_part * grasp.part_from_tool, preferred,
+                                                tool_symmetry(parameters.gripper, grasp.opening));
+  const Matrix3& tool = candidate.robot_from_tool.rotation;
+  candidate.tilt = std::acos(std::clamp(tool.col(2).dot(down), -1.0F, 1.0F));
+  candidate.turn = rotation_angle(preferred.rotation.transpose() * tool);
+  const float most = parameters.collision.clearance_range;
+  candidate.value = grasp_value({grasp.priority, target.score, candidate.tilt, most, target.drop, candidate.turn},
+                                parameters.weights, most);
+  return candidate;
+}
+
+/// The first test that fails; `none` when it passes those that need no frame.
+GraspRejection test_pose(const GraspCandidate& candidate, const GraspParameters& parameters) {
+  if (candidate.tilt > parameters.maximum_tilt) return GraspRejection::tilt;
+  const RigidTransform approach = approach_of(candidate.robot_from_tool, parameters.approach_distance);
+  const bool reached =
+      within_reach(parameters.reach, candidate.robot_from_tool) && within_reach(parameters.reach, approach);
+  return reached ? GraspRejection::none : GraspRejection::reach;
+}
+
+}  // namespace
+
+Vector3 up_direction(const GraspParameters& parameters) {
+  if (parameters.up.squaredNorm() > 0.0F) return parameters.up.normalized();
+  return -parameters.robot_from_camera.rotation.col(2);
+}
+
+Matrix3 preferred_orientation(const GraspParameters& parameters) {
+  const Vector3 z = -up_direction(parameters);
+  Vector3 x = parameters.preferred_closing - z * z.dot(parameters.preferred_closing);
+  if (x.squaredNorm() < 1e-6F) x = z.unitOrthogonal();
+  x.normalize();
+  Matrix3 rotation;
+  rotation << x, z.cross(x), z;
+  return rotation;
+}
+
+bool within_reach(const ReachLimits& reach, const RigidTransform& robot_from_tool) {
+  const Vector3& place = robot_from_tool.translation;
+  const float radius = place.head<2>().norm();
+  return distance_to_box(place, reach.box) <= 0.0F && radius >= reach.minimum_radius && radius <= reach.maximum_radius;
+}
+
+RigidTransform approach_of(const RigidTransform& robot_from_tool, float distance) {
+  return {robot_from_tool.rotation, robot_from_tool.translation - distance * robot_from_tool.rotation.col(2)};
+}
+
+GraspRejection furthest(GraspRejection a, GraspRejection b) {
+  constexpr std::array order{GraspRejection::no_grasp, GraspRejection::opening,   GraspRejection::tilt,
+                             GraspRejection::reach,    GraspRejection::collision, GraspRejection::none};
+  return std::find(order.begin(), order.end(), a) < std::find(order.begin(), order.end(), b) ? b : a;
+}
+
+GraspRejection grasp_candidates(const Bank& bank, const GraspTarget& target, const GraspParameters& parameters,
+                                FixedVector<GraspCandidate>& candidates) {
+  const Vector3 down = -up_direction(parameters);
+  const RigidTransform preferred{preferred_orientation(parameters), Vector3::Zero()};
+  const bool continuous = bank.part->symmetry_continuous != 0;
+  const std::uint32_t steps = continuous ? std::max<std::uint32_t>(parameters.symmetry_steps, 1) : 1;
+  const float step_angle = 2.0F * std::numbers::pi_v<float> / static_cast<float>(steps);
+  GraspRejection reason = GraspRejection::no_grasp;
+  candidates.clear();
+
+  for (std::uint32_t g = 0; g < bank.grasps.size(); ++g) {
+    const PartGrasp& grasp = bank.grasps[g];
+    if (!can_open(parameters.gripper, grasp.opening)) {
+      reason = furthest(reason, GraspRejection::opening);
+      continue;
+    }
+    for (std::uint32_t d = 0; d < bank.symmetry_discrete.size(); ++d) {
+      const RigidTransform symmetric = target.robot_from_part * bank.symmetry_discrete[d];
+      const RigidTransform first =
+          continuous ? first_turn(symmetric, grasp, bank.part->symmetry_axis, down, preferred.rotation) : symmetric;
+      for (std::uint32_t step = 0; step < steps; ++step) {
+        const RigidTransform turned =
+            step == 0 ? first : first * turn_about(bank.part->symmetry_axis, step_angle * static_cast<float>(step));
+        GraspCandidate candidate = candidate_at(turned, grasp, target, down, preferred, parameters);
+        candidate.grasp = g;
+        candidate.member = d * steps + step;
+        const GraspRejection rejection = test_pose(candidate, parameters);
+        reason = furthest(reason, rejection);
+        if (rejection != GraspRejection::none) continue;
+        const bool known = std::any_of(candidates.begin(), candidates.end(), [&](const GraspCandidate& other) {
+          return other.grasp == g && same_pose(other.robot_from_tool, candidate.robot_from_tool);
+        });
+        if (!known) keep_best(candidate, candidates);
+      }
+    }
+  }
+  std::sort_heap(candidates.begin(), candidates.end(), ranks_before);
+  return reason;
+}
+
+}  // namespace graspd

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/bank/bank.hpp"
+#include "core/grasp/parameters.hpp"
+#include "core/grasp/pick.hpp"
+#include "core/memory/fixed_vector.hpp"
+
+namespace graspd {
+
+/// A grasp of one instance, before anything was looked up in the frame.
+struct GraspCandidate {
+  RigidTransform robot_from_tool;
+  RigidTransform robot_from_part;  ///< The symmetric pose to which the part file's grasp belongs.
+  float tilt = 0;                  ///< Radians.
+  float turn = 0;                  ///< Radians from the preferred orientation.
+  float value = 0;                 ///< Its rank if nothing were near: no clearance can lift it above.
+  std::uint32_t grasp = 0;         ///< Index into Bank::grasps.
+  std::uint32_t member = 0;        ///< Number of the symmetric pose.
+};
+
+/// An instance as the choice looks at it.
+struct GraspTarget {
+  RigidTransform robot_from_part;
+  float score = 0;
+  float drop = 0;  ///< Metres below the highest instance.
+};
+
+/// Against gravity in the robot frame, unit length.
+[[nodiscard]] Vector3 up_direction(const GraspParameters& parameters);
+
+/// The orientation in which the tool points straight down with its x as near as possible to
+/// GraspParameters::preferred_closing; robot_from_tool.
+[[nodiscard]] Matrix3 preferred_orientation(const GraspParameters& parameters);
+
+/// Whether tool poses at the pick and at the approach lie within the limits.
+[[nodiscard]] bool within_reach(const ReachLimits& reach, const RigidTransform& robot_from_tool);
+
+/// The tool `distance` metres back along its z.
+[[nodiscard]] RigidTransform approach_of(const RigidTransform& robot_from_tool, float distance);
+
+/// The one of two reasons whose test comes later (see GraspRejection); `none` is the latest.
+[[nodiscard]] GraspRejection furthest(GraspRejection a, GraspRejection b);
+
+/// Fills `candidates` with the grasps of an instance, highest value first: each grasp of the part at each of the
+/// part's discrete symmetric poses; with continuous symmetry at GraspParameters::symmetry_steps even turns, the first
+/// of them where the tool leans least; and with the turn of the tool (tool_symmetry) nearest to the preferred
+/// orientation. Equal grasps are given once. Opening, tilt and reach are tested here. When more are left than fit,
+/// those of lowest value are dropped and counted. Returns the reason of the grasp that came furthest; `none` when any
+/// passed.
+GraspRejection grasp_candidates(const Bank& bank, const GraspTarget& target, const GraspParameters& parameters,
+                                FixedVector<GraspCandidate>& candidates);
+
+}  // namespace graspd

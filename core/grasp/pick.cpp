@@ -1,0 +1,23 @@
+#include "core/grasp/pick.hpp"
+
+namespace graspd {
+
+const char* grasp_rejection_name(GraspRejection rejection) {
+  switch (rejection) {
+    case GraspRejection::none:
+      return "none";
+    case GraspRejection::no_grasp:
+      return "no grasp";
+    case GraspRejection::tilt:
+      return "tilt";
+    case GraspRejection::reach:
+      return "reach";
+    case GraspRejection::collision:
+      return "collision";
+    case GraspRejection::opening:
+      return "opening";
+  }
+  return "unknown";
+}
+
+}  // namespace graspd

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/grasp/candidates.hpp"
+#include "core/grasp/parameters.hpp"
+#include "core/grasp/pick.hpp"
+#include "core/memory/arena.hpp"
+#include "core/memory/fixed_vector.hpp"
+
+namespace graspd {
+
+/// All the memory that a choice writes to.
+struct GraspWorkspace {
+  GraspCapacity capacity;
+  FixedVector<GraspCandidate> candidates;  ///< Of the instance in hand.
+  FixedVector<Pick> picks;
+  FixedVector<GraspRejection> reasons;
+};
+
+/// Carves the memory of a choice.
+[[nodiscard]] GraspWorkspace carve_grasp_workspace(Arena& arena, const GraspCapacity& capacity);
+
+}  // namespace graspd

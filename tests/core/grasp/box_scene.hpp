@@ -1,0 +1,81 @@
+#pragma once
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/bank/bank.hpp"
+#include "core/geometry/depth_frame.hpp"
+
+namespace graspd {
+
+/// A posed box for scenes whose geometry is known exactly.
+struct SceneBox {
+  RigidTransform camera_from_box;
+  Vector3 half_size = Vector3::Zero();
+};
+
+/// A depth frame of boxes on a floor across the optical axis, by casting a ray through each pixel.
+struct BoxScene {
+  Camera camera{320, 240, 400.0F, 400.0F, 159.5F, 119.5F};
+  float floor = 0.60F;  ///< Metres along z; 0: no floor, unmeasured.
+  std::vector<SceneBox> boxes;
+  std::vector<float> depth;
+
+  DepthFrame render() {
+    depth.assign(camera.pixel_count(), floor);
+    for (int v = 0; v < camera.height; ++v) {
+      for (int u = 0; u < camera.width; ++u) {
+        const Vector3 ray = camera.point(static_cast<float>(u), static_cast<float>(v), 1.0F);
+        float& nearest = depth[camera.index(u, v)];
+        for (const SceneBox& box : boxes) {
+          const float hit = hit_depth(box, ray);
+          if (hit > 0.0F && (nearest == 0.0F || hit < nearest)) nearest = hit;
+        }
+      }
+    }
+    return {camera, depth, 0, 0};
+  }
+
+ private:
+  /// Depth at which the ray enters the box; 0 when it misses.
+  static float hit_depth(const SceneBox& box, const Vector3& ray) {
+    const RigidTransform box_from_camera = inverse(box.camera_from_box);
+    const Vector3 start = box_from_camera.translation;
+    const Vector3 direction = box_from_camera.rotation * ray;
+    float enter = 0.0F;
+    float leave = std::numeric_limits<float>::max();
+    for (int axis = 0; axis < 3; ++axis) {
+      float near = (-box.half_size[axis] - start[axis]) / direction[axis];
+      float far = (box.half_size[axis] - start[axis]) / direction[axis];
+      if (near > far) std::swap(near, far);
+      enter = std::max(enter, near);
+      leave = std::min(leave, far);
+    }
+    return enter < leave ? enter : 0.0F;
+  }
+};
+
+/// As much of a bank as the choice of a grasp reads.
+struct GraspBank {
+  BankPart part;
+  std::vector<RigidTransform> discrete{RigidTransform{}};
+  std::vector<PartGrasp> grasps;
+
+  [[nodiscard]] Bank bank() const {
+    Bank result;
+    result.part = &part;
+    result.symmetry_discrete = discrete;
+    result.grasps = grasps;
+    return result;
+  }
+};
+
+/// A turn about a line through the origin.
+inline RigidTransform turn(const Vector3& axis, float angle) {
+  return {Eigen::AngleAxisf(angle, axis.normalized()).toRotationMatrix(), Vector3::Zero()};
+}
+
+inline RigidTransform shift(float x, float y, float z) { return {Matrix3::Identity(), Vector3(x, y, z)}; }
+
+}  // namespace graspd

@@ -1,0 +1,225 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <random>
+
+#include "core/grasp/planner.hpp"
+#include "core/grasp/ranking.hpp"
+#include "tests/core/grasp/box_scene.hpp"
+
+namespace graspd {
+namespace {
+
+/// Blocks of 30 x 60 x 30 mm, held across the narrow side from above (or, less gladly, along the wide one).
+struct Planner : testing::Test {
+  Planner() {
+    const RigidTransform from_above = turn(Vector3::UnitX(), 3.14159265F);
+    part.part.box_min = Vector3(-0.015F, -0.030F, -0.015F);
+    part.part.box_max = Vector3(0.015F, 0.030F, 0.015F);
+    part.grasps.push_back({from_above, 0.036F, 1, 1});
+    part.grasps.push_back({from_above * turn(Vector3::UnitZ(), 1.5707963F), 0.066F, 0, 2});
+    carve({});
+  }
+  void carve(const GraspCapacity& capacity) {
+    Arena measuring = Arena::measuring();
+    (void)carve_grasp_workspace(measuring, capacity);
+    bytes = std::make_unique<std::byte[]>(measuring.used() + Arena::alignment);
+    Arena arena({bytes.get(), measuring.used()});
+    workspace = carve_grasp_workspace(arena, capacity);
+    ASSERT_FALSE(arena.exhausted());
+  }
+  /// A block whose z axis points to the camera.
+  void add_block(float x, float y, float z, float yaw = 0.0F, float score = 0.9F) {
+    const RigidTransform pose = shift(x, y, z) * turn(Vector3::UnitZ(), yaw) * turn(Vector3::UnitX(), 3.14159265F);
+    scene.boxes.push_back({pose, part.part.box_max});
+    Instance instance;
+    instance.camera_from_part = pose;
+    instance.score = score;
+    instances.push_back(instance);
+  }
+  void add_obstacle(float x, float y, float z) { scene.boxes.push_back({shift(x, y, z), Vector3::Constant(0.010F)}); }
+  PickResult choose() {
+    frame = scene.render();
+    const Bank bank = part.bank();
+    Detections detections;
+    detections.instances = instances;
+    return choose_pick(frame, detections, {&bank, 1}, parameters, workspace);
+  }
+  GraspBank part;
+  BoxScene scene;
+  std::vector<Instance> instances;
+  GraspParameters parameters;
+  DepthFrame frame;
+  std::unique_ptr<std::byte[]> bytes;
+  GraspWorkspace workspace;
+};
+
+TEST_F(Planner, PicksAFreeBlockByItsPreferredGrasp) {
+  add_block(0.05F, -0.03F, 0.585F, 0.4F);
+  const PickResult result = choose();
+  ASSERT_TRUE(result.found);
+  EXPECT_EQ(result.pickable, 1U);
+  EXPECT_EQ(result.main_reason, GraspRejection::none);
+  EXPECT_EQ(result.best.grasp, 1U);
+  EXPECT_EQ(result.best.instance, 0U);
+  EXPECT_FLOAT_EQ(result.best.opening, 0.036F);
+  EXPECT_FLOAT_EQ(result.best.score, 0.9F);
+  EXPECT_LT(result.best.tilt, 1e-3F);
+  EXPECT_TRUE(result.best.robot_from_tool.translation.isApprox(Vector3(0.05F, -0.03F, 0.585F), 1e-5F));
+  const Vector3 back = result.best.robot_from_approach.translation - result.best.robot_from_tool.translation;
+  EXPECT_TRUE(back.isApprox(Vector3(0.0F, 0.0F, -parameters.approach_distance), 1e-4F));
+}
+
+TEST_F(Planner, TakesTheOtherGraspWhenANeighbourIsInTheWay) {
+  add_block(0.0F, 0.0F, 0.585F);
+  add_obstacle(0.030F, 0.0F, 0.585F);
+  const PickResult result = choose();
+  ASSERT_TRUE(result.found);
+  EXPECT_EQ(result.best.grasp, 2U);
+}
+
+TEST_F(Planner, SaysCollisionWhenEveryGraspIsBlocked) {
+  add_block(0.0F, 0.0F, 0.585F);
+  add_obstacle(0.030F, 0.0F, 0.585F);
+  add_obstacle(0.0F, 0.046F, 0.585F);
+  const PickResult result = choose();
+  EXPECT_FALSE(result.found);
+  EXPECT_EQ(result.pickable, 0U);
+  EXPECT_EQ(result.main_reason, GraspRejection::collision);
+  ASSERT_EQ(result.reasons.size(), 1U);
+  EXPECT_EQ(result.reasons[0], GraspRejection::collision);
+}
+
+TEST_F(Planner, PickIsTheSameWhicheverFrameTheRobotHas) {
+  add_block(0.02F, 0.01F, 0.585F, 0.3F);
+  add_block(-0.06F, 0.02F, 0.560F, 1.0F);
+  add_obstacle(0.05F, 0.01F, 0.585F);
+  const PickResult in_camera = choose();
+  ASSERT_EQ(in_camera.pickable, 2U);
+  const std::vector<Pick> expected(in_camera.picks.begin(), in_camera.picks.end());
+  parameters.robot_from_camera = turn(Vector3(1.0F, 0.3F, -0.2F), 2.5F);
+  parameters.robot_from_camera.translation = Vector3(0.4F, -0.2F, 0.9F);
+  parameters.preferred_closing = parameters.robot_from_camera.rotation * Vector3::UnitX();
+  const PickResult in_robot = choose();
+  ASSERT_EQ(in_robot.pickable, 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const RigidTransform tool = inverse(parameters.robot_from_camera) * in_robot.picks[i].robot_from_tool;
+    EXPECT_TRUE(tool.translation.isApprox(expected[i].robot_from_tool.translation, 1e-4F));
+    EXPECT_TRUE(tool.rotation.isApprox(expected[i].robot_from_tool.rotation, 1e-4F));
+    EXPECT_NEAR(in_robot.picks[i].clearance, expected[i].clearance, 1e-4F);
+  }
+}
+
+TEST_F(Planner, OrdersByValueWithOnePickForEachInstance) {
+  add_block(-0.08F, 0.0F, 0.585F, 0.0F, 0.95F);
+  add_block(0.08F, 0.0F, 0.545F, 0.0F, 0.85F);
+  add_block(0.0F, 0.05F, 0.585F, 0.0F, 0.90F);
+  const PickResult result = choose();
+  ASSERT_EQ(result.pickable, 3U);
+  EXPECT_EQ(result.picks[0].instance, 1U) << "40 mm above the others";
+  EXPECT_EQ(result.picks[1].instance, 0U);
+  EXPECT_EQ(result.picks[2].instance, 2U);
+  for (const Pick& pick : result.picks) {
+    const float drop = pick.instance == 1 ? 0.0F : 0.040F;
+    const float value = grasp_value({1, pick.score, pick.tilt, pick.clearance, drop, 0.0F}, parameters.weights,
+                                    parameters.collision.clearance_range);
+    EXPECT_NEAR(pick.value, value, 1e-3F);
+  }
+}
+
+TEST_F(Planner, SearchWithBoundsFindsTheBestOfAllGrasps) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<float> unit(-1.0F, 1.0F);
+  part.grasps.clear();
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    RigidTransform tool =
+        turn(Vector3::UnitX(), 3.14159265F + 0.3F * unit(random)) * turn(Vector3::UnitZ(), 1.5F * unit(random));
+    tool.translation = Vector3(0.0F, 0.02F * unit(random), 0.002F * unit(random));
+    part.grasps.push_back({tool, 0.050F, 0, i + 1});
+  }
+  parameters.weights.clearance = 3.0F;
+  for (int trial = 0; trial < 10; ++trial) {
+    scene.boxes.clear();
+    instances.clear();
+    add_block(0.0F, 0.0F, 0.585F, unit(random));
+    for (int i = 0; i < 3; ++i) {
+      const float angle = 3.0F * unit(random);
+      add_obstacle(0.055F * std::cos(angle), 0.055F * std::sin(angle), 0.590F);
+    }
+    const PickResult all = choose();
+    const std::vector<PartGrasp> every = part.grasps;
+    float best = -1.0F;
+    const bool found = all.found;
+    const float value = all.best.value;
+    for (const PartGrasp& one : every) {
+      part.grasps = {one};
+      const PickResult alone = choose();
+      if (alone.found) best = std::max(best, alone.best.value);
+    }
+    part.grasps = every;
+    EXPECT_EQ(found, best >= 0.0F);
+    EXPECT_FLOAT_EQ(found ? value : -1.0F, best);
+  }
+}
+
+TEST_F(Planner, CountsInstancesByReasonAndNamesTheMostFrequent) {
+  add_block(0.0F, 0.0F, 0.585F);
+  add_obstacle(0.030F, 0.0F, 0.585F);
+  add_obstacle(0.0F, 0.046F, 0.585F);
+  for (const float x : {-0.1F, 0.1F}) {
+    add_block(x, 0.05F, 0.585F);
+    instances.back().camera_from_part = shift(x, 0.05F, 0.585F);
+  }
+  const PickResult result = choose();
+  EXPECT_FALSE(result.found);
+  EXPECT_EQ(result.rejections[static_cast<std::size_t>(GraspRejection::collision)], 1U);
+  EXPECT_EQ(result.rejections[static_cast<std::size_t>(GraspRejection::tilt)], 2U) << "those point away";
+  EXPECT_EQ(result.main_reason, GraspRejection::tilt);
+}
+
+TEST_F(Planner, PartWithoutGraspsIsReportedAndNotPicked) {
+  part.grasps.clear();
+  add_block(0.0F, 0.0F, 0.585F);
+  const PickResult result = choose();
+  EXPECT_FALSE(result.found);
+  EXPECT_EQ(result.main_reason, GraspRejection::no_grasp);
+}
+
+TEST_F(Planner, NothingDetectedIsNothingToPick) {
+  const PickResult result = choose();
+  EXPECT_FALSE(result.found);
+  EXPECT_EQ(result.pickable, 0U);
+  EXPECT_EQ(result.main_reason, GraspRejection::none);
+  EXPECT_EQ(result.flags, 0U);
+}
+
+TEST_F(Planner, OverrunIsCutAndFlagged) {
+  add_block(-0.08F, 0.0F, 0.585F, 0.0F, 0.95F);
+  add_block(0.08F, 0.0F, 0.585F, 0.0F, 0.90F);
+  carve({1, 1});
+  const PickResult result = choose();
+  EXPECT_EQ(result.flags, flag_grasps_cut | flag_picks_cut);
+  ASSERT_EQ(result.pickable, 1U);
+  EXPECT_EQ(result.best.instance, 0U) << "the best score stays";
+  EXPECT_EQ(result.best.grasp, 1U) << "the highest priority stays";
+}
+
+TEST_F(Planner, SameInputGivesTheSameBytes) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> unit(-1.0F, 1.0F);
+  part.part.symmetry_continuous = 1;
+  for (int i = 0; i < 12; ++i) {
+    add_block(0.15F * unit(random), 0.10F * unit(random), 0.57F + 0.02F * unit(random), unit(random));
+  }
+  const PickResult first = choose();
+  ASSERT_TRUE(first.found);
+  const std::vector<Pick> picks(first.picks.begin(), first.picks.end());
+  carve({});
+  const PickResult again = choose();
+  ASSERT_EQ(again.picks.size(), picks.size());
+  EXPECT_EQ(std::memcmp(again.picks.data(), picks.data(), picks.size() * sizeof(Pick)), 0);
+}
+
+}  // namespace
+}  // namespace graspd
