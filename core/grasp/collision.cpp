@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace graspd {
 namespace {
@@ -34,93 +36,83 @@ class NearestDistances {
   std::size_t count_;
 };
 
-/// All that the boxes sweep on the way in, and `range` around it; tool frame.
-Box swept_bounds(const Gripper& gripper, float approach_distance, float range) {
-  Box bounds = gripper.pieces[0].box;
-  for (const GripperBox& piece : gripper.boxes()) {
-    bounds.lower = bounds.lower.cwiseMin(piece.box.lower);
-    bounds.upper = bounds.upper.cwiseMax(piece.box.upper);
-  }
-  bounds.lower -= Vector3(range, range, range + approach_distance);
-  bounds.upper += Vector3::Constant(range);
-  return bounds;
-}
+/// Where a box (tool frame) lies in the frame: the pixels that can show a point of it, and its depths.
+struct Shadow {
+  PixelRectangle pixels;
+  float nearest = 0;
+  float furthest = 0;
+};
 
-/// The pixels that can show a point of `box`, and its furthest depth.
-PixelRectangle pixels_of(const Camera& camera, const RigidTransform& camera_from_tool, const Box& box,
-                         float& furthest) {
+Shadow shadow_of(const Camera& camera, const RigidTransform& camera_from_tool, const Box& box) {
   constexpr float nearest_projected = 0.01F;
   Eigen::Vector2f low = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
   Eigen::Vector2f high = -low;
-  furthest = 0.0F;
-  bool behind = false;
+  Shadow shadow{{}, std::numeric_limits<float>::max(), -std::numeric_limits<float>::max()};
   for (int corner = 0; corner < 8; ++corner) {
     const Vector3 local((corner & 1) != 0 ? box.upper.x() : box.lower.x(),
                         (corner & 2) != 0 ? box.upper.y() : box.lower.y(),
                         (corner & 4) != 0 ? box.upper.z() : box.lower.z());
     const Vector3 point = camera_from_tool * local;
-    furthest = std::max(furthest, point.z());
-    if (point.z() < nearest_projected) {
-      behind = true;
-      continue;
-    }
+    shadow.nearest = std::min(shadow.nearest, point.z());
+    shadow.furthest = std::max(shadow.furthest, point.z());
     const Eigen::Vector2f pixel = camera.project(point);
     low = low.cwiseMin(pixel);
     high = high.cwiseMax(pixel);
   }
-  const auto width = static_cast<float>(camera.width);
-  const auto height = static_cast<float>(camera.height);
-  if (furthest < nearest_projected) return {};
-  if (behind) return {0, camera.width - 1, 0, camera.height - 1};
-  return {static_cast<int>(std::clamp(std::floor(low.x()), 0.0F, width)),
-          static_cast<int>(std::clamp(std::ceil(high.x()), -1.0F, width - 1.0F)),
-          static_cast<int>(std::clamp(std::floor(low.y()), 0.0F, height)),
-          static_cast<int>(std::clamp(std::ceil(high.y()), -1.0F, height - 1.0F))};
+  if (shadow.furthest < nearest_projected) return shadow;
+  const auto right = static_cast<float>(camera.width - 1);
+  const auto bottom = static_cast<float>(camera.height - 1);
+  if (shadow.nearest < nearest_projected) {
+    shadow.pixels = {0, camera.width - 1, 0, camera.height - 1};
+  } else {
+    shadow.pixels = {static_cast<int>(std::clamp(std::floor(low.x()), 0.0F, right + 1.0F)),
+                     static_cast<int>(std::clamp(std::ceil(high.x()), -1.0F, right)),
+                     static_cast<int>(std::clamp(std::floor(low.y()), 0.0F, bottom + 1.0F)),
+                     static_cast<int>(std::clamp(std::ceil(high.y()), -1.0F, bottom))};
+  }
+  return shadow;
 }
 
-/// Distance from a point (tool frame) to the swept gripper, at most `range`.
-float swept_distance(const Vector3& point, const Gripper& gripper, float approach_distance, float range) {
-  const bool part = distance_to_box(point, gripper.held) <= 0.0F;
-  float nearest = range;
-  for (const GripperBox& piece : gripper.boxes()) {
-    if (part && piece.touches_part) continue;
-    Box swept = piece.box;
-    swept.lower.z() -= approach_distance;
-    nearest = std::min(nearest, distance_to_box(point, swept));
+/// Metres between what one piece of the gripper sweeps and what was measured.
+float piece_clearance(const DepthFrame& frame, const RigidTransform& tool_from_camera, const Shadow& shadow,
+                      const Box& swept, const Box& held, bool touches_part, const CollisionParameters& parameters) {
+  const Camera& camera = frame.camera;
+  const float pixels_apart = parameters.sample_spacing * std::min(camera.fx, camera.fy) / shadow.furthest;
+  const int stride = std::max(1, static_cast<int>(std::min(pixels_apart, static_cast<float>(camera.width))));
+  const Vector3 step = tool_from_camera.rotation.col(0) / camera.fx;
+
+  NearestDistances nearest(parameters.minimum_points, parameters.clearance_range);
+  for (int v = shadow.pixels.first_v; v <= shadow.pixels.last_v; v += stride) {
+    const Vector3 row_ray = tool_from_camera.rotation * camera.point(0.0F, static_cast<float>(v), 1.0F);
+    const float* const row = frame.depth.data() + camera.index(0, v);
+    for (int u = shadow.pixels.first_u; u <= shadow.pixels.last_u; u += stride) {
+      const float depth = row[u];
+      if (!(depth > 0.0F && depth >= shadow.nearest && depth <= shadow.furthest)) continue;
+      const Vector3 point = depth * (row_ray + static_cast<float>(u) * step) + tool_from_camera.translation;
+      if (touches_part && distance_to_box(point, held) <= 0.0F) continue;
+      nearest.add(distance_to_box(point, swept));
+    }
+    if (nearest.last() <= parameters.minimum_clearance) break;
   }
-  return nearest;
+  return nearest.last();
 }
 
 }  // namespace
 
 float approach_clearance(const DepthFrame& frame, const RigidTransform& camera_from_tool, const Gripper& gripper,
                          float approach_distance, const CollisionParameters& parameters) {
-  const Camera& camera = frame.camera;
-  const float range = parameters.clearance_range;
-  const Box bounds = swept_bounds(gripper, approach_distance, range);
-  float furthest = 0.0F;
-  const PixelRectangle pixels = pixels_of(camera, camera_from_tool, bounds, furthest);
-  if (pixels.last_u < pixels.first_u || pixels.last_v < pixels.first_v) return range;
-
-  const float pixels_apart = parameters.sample_spacing * std::min(camera.fx, camera.fy) / furthest;
-  const int stride = std::max(1, static_cast<int>(std::min(pixels_apart, static_cast<float>(camera.width))));
   const RigidTransform tool_from_camera = inverse(camera_from_tool);
-  const Vector3 step = tool_from_camera.rotation.col(0) / camera.fx;
-
-  NearestDistances nearest(parameters.minimum_points, range);
-  for (int v = pixels.first_v; v <= pixels.last_v; v += stride) {
-    const Vector3 row_ray = tool_from_camera.rotation * camera.point(0.0F, static_cast<float>(v), 1.0F);
-    const float* const row = frame.depth.data() + camera.index(0, v);
-    for (int u = pixels.first_u; u <= pixels.last_u; u += stride) {
-      const float depth = row[u];
-      if (!(depth > 0.0F)) continue;
-      const Vector3 point = depth * (row_ray + static_cast<float>(u) * step) + tool_from_camera.translation;
-      if ((point.array() < bounds.lower.array()).any() || (point.array() > bounds.upper.array()).any()) continue;
-      nearest.add(swept_distance(point, gripper, approach_distance, range));
-    }
-    if (nearest.last() <= parameters.minimum_clearance) return nearest.last();
+  const Vector3 range = Vector3::Constant(parameters.clearance_range);
+  float clearance = parameters.clearance_range;
+  for (const GripperBox& piece : gripper.boxes()) {
+    Box swept = piece.box;
+    swept.lower.z() -= approach_distance;
+    const Shadow shadow = shadow_of(frame.camera, camera_from_tool, {swept.lower - range, swept.upper + range});
+    clearance = std::min(clearance, piece_clearance(frame, tool_from_camera, shadow, swept, gripper.held,
+                                                    piece.touches_part, parameters));
+    if (clearance <= parameters.minimum_clearance) break;
   }
-  return nearest.last();
+  return clearance;
 }
 
 }  // namespace graspd

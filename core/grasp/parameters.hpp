@@ -24,7 +24,7 @@ struct CollisionParameters {
   std::uint32_t minimum_points = 3;  ///< So many points make an obstacle (1 to 8): fewer are flying pixels.
 };
 
-/// Weights of the figures that picks are ordered by: core/grasp/ranking.hpp has the formula.
+/// Weights, none negative, of the figures that picks are ordered by: core/grasp/ranking.hpp has the formula.
 struct RankingWeights {
   float priority = 10.0F;  ///< A step of priority outweighs all other figures together.
   float score = 1.0F;

@@ -14,29 +14,31 @@ float clearance_by_steps(const DepthFrame& frame, const RigidTransform& camera_f
                          float approach_distance, const CollisionParameters& parameters) {
   constexpr int steps = 200;
   const RigidTransform tool_from_camera = inverse(camera_from_tool);
-  std::vector<float> distances;
-  for (int v = 0; v < frame.camera.height; ++v) {
-    for (int u = 0; u < frame.camera.width; ++u) {
-      const float depth = frame.at(u, v);
-      if (depth <= 0.0F) continue;
-      const Vector3 point = tool_from_camera * frame.camera.point(static_cast<float>(u), static_cast<float>(v), depth);
-      const bool part =
-          (point.array() >= gripper.held.lower.array()).all() && (point.array() <= gripper.held.upper.array()).all();
-      float nearest = parameters.clearance_range;
-      for (const GripperBox& piece : gripper.boxes()) {
+  float clearance = parameters.clearance_range;
+  for (const GripperBox& piece : gripper.boxes()) {
+    std::vector<float> distances(parameters.minimum_points, parameters.clearance_range);
+    for (int v = 0; v < frame.camera.height; ++v) {
+      for (int u = 0; u < frame.camera.width; ++u) {
+        const float depth = frame.at(u, v);
+        if (depth <= 0.0F) continue;
+        const Vector3 point =
+            tool_from_camera * frame.camera.point(static_cast<float>(u), static_cast<float>(v), depth);
+        const bool part =
+            (point.array() >= gripper.held.lower.array()).all() && (point.array() <= gripper.held.upper.array()).all();
         if (part && piece.touches_part) continue;
+        float nearest = parameters.clearance_range;
         for (int step = 0; step <= steps; ++step) {
           const float back = approach_distance * static_cast<float>(step) / steps;
           nearest = std::min(nearest, distance_to_box(point + Vector3(0.0F, 0.0F, back), piece.box));
         }
+        distances.push_back(nearest);
       }
-      distances.push_back(nearest);
     }
+    const auto place = distances.begin() + parameters.minimum_points - 1;
+    std::nth_element(distances.begin(), place, distances.end());
+    clearance = std::min(clearance, *place);
   }
-  if (distances.size() < parameters.minimum_points) return parameters.clearance_range;
-  const auto place = distances.begin() + parameters.minimum_points - 1;
-  std::nth_element(distances.begin(), place, distances.end());
-  return *place;
+  return clearance;
 }
 
 BoxScene random_scene(std::mt19937& random) {
