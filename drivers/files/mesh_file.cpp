@@ -1,0 +1,47 @@
+#include "drivers/files/mesh_file.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "drivers/files/obj_file.hpp"
+#include "drivers/files/ply_file.hpp"
+#include "drivers/files/stl_file.hpp"
+#include "drivers/files/whole_file.hpp"
+
+namespace graspd {
+
+namespace {
+
+Result<Mesh> parse_ply_mesh(std::string_view bytes, std::string_view name) {
+  Result<PlyContents> contents = parse_ply(bytes, name, NonFiniteVertices::refuse);
+  if (!contents.ok()) return contents.status();
+  return Mesh{std::move(contents.value().vertices), std::move(contents.value().triangles)};
+}
+
+Result<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (ending == ".ply") return parse_ply_mesh(bytes, path.string());
+  if (ending == ".stl") return parse_stl(bytes, path.string());
+  if (ending == ".obj") return parse_obj(bytes, path.string());
+  return Status::format(StatusCode::bad_file, "%s: not a kind of mesh that can be read: use .ply, .stl or .obj",
+                        path.c_str());
+}
+
+}  // namespace
+
+Result<Mesh> read_mesh(const std::filesystem::path& path, LengthUnit unit) {
+  const Result<std::string> bytes = read_file(path);
+  if (!bytes.ok()) return bytes.status();
+  Result<Mesh> mesh = parse_mesh(bytes.value(), path);
+  if (!mesh.ok()) return mesh;
+  if (mesh.value().triangles.empty()) {
+    return Status::format(StatusCode::bad_file, "%s: no faces: export the part as a triangle mesh, not as points",
+                          path.c_str());
+  }
+  for (Vector3& vertex : mesh.value().vertices) vertex *= metres_per(unit);
+  return mesh;
+}
+
+}  // namespace graspd
