@@ -29,12 +29,14 @@ inline constexpr std::size_t rejection_count = 10;
 
 /// The figures on which a hypothesis is judged; shares in [0, 1].
 struct Evidence {
-  float overlap = 0;   ///< Confirmed share of the surface that should be seen and was measured.
-  float visible = 0;   ///< Confirmed share of all the surface that faces the sensor from this pose.
-  float boundary = 0;  ///< Share of the model that stands where the scene shows free space.
-  float edge = 0;      ///< Share of the decided outline that agrees with the scene.
-  float below = 0;     ///< Share of the model below the plane or inside accepted instances.
-  float residual = 0;  ///< Root mean square distance of confirmed points (metres).
+  float overlap = 0;    ///< Confirmed share of the surface that should be seen and was measured.
+  float visible = 0;    ///< Confirmed share of all the surface that faces the sensor from this pose.
+  float purity = 0;     ///< Confirmed share of the surface for or against which the scene speaks.
+  float boundary = 0;   ///< Share of the model that stands where the scene shows free space.
+  float edge = 0;       ///< Share of the decided outline that agrees with the scene.
+  float below = 0;      ///< Share of the model below the plane or inside accepted instances.
+  float residual = 0;   ///< Root mean square distance of confirmed points (metres).
+  float confirmed = 0;  ///< Cells of the organised map that confirm the model.
 };
 
 /// A part found, or a hypothesis that was rejected.

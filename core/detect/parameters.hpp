@@ -21,26 +21,59 @@ struct PreprocessParameters {
   RigidTransform box_from_camera;     ///< For BackgroundMode::box.
   Vector3 box_half_size = Vector3::Zero();  ///< Metres; for BackgroundMode::box.
   bool segmentation = true;                 ///< Drop connected surfaces too small to be a part.
+  float cells_per_voxel = 4.0F;             ///< Resolution of the organised map, in cells along a voxel edge.
+};
+
+/// Voting (paper 1.3 and 2.4).
+struct MatchParameters {
+  int reference_step = 3;           ///< Every so many scene points one is a reference point.
+  int peaks_per_reference = 6;      ///< Poses kept for a reference, over all views.
+  float minimum_peak_share = 0.5F;  ///< A peak counts when it has this share of the votes of the best one.
+};
+
+/// Clustering (paper 3.2: 15 degrees, 3 voxels) and the choice of what is refined.
+struct ClusterParameters {
+  float rotation = 0.26F;    ///< Radians.
+  float translation = 3.0F;  ///< Voxels.
+  int judged = 250;          ///< Clusters that go on to refinement, for one part.
+};
+
+/// Iterative closest point against the organised map.
+struct RefineParameters {
+  int iterations = 12;
+  int points = 300;         ///< Surface points that take part.
+  float first_gate = 2.0F;  ///< Voxels: correspondences further apart are ignored in the first iteration,
+  float last_gate = 0.5F;   ///< and in the last.
+};
+
+/// Verification (paper 2.4.2); the thresholds come from the bank.
+struct VerifyParameters {
+  bool tests = true;       ///< False: only the score decides (ablation).
+  float tolerance = 0.4F;  ///< Voxels: a model surface this close to the measured one is confirmed.
 };
 
 /// Bounds on what one detection may hold; they fix the memory of a workspace.
 struct DetectCapacity {
   int maximum_width = 1280;
   int maximum_height = 960;
+  std::uint32_t map_cells = 640 * 480;  ///< Cells of the organised map; larger frames are binned until they fit.
   std::uint32_t scene_points = 20000;
-  std::uint32_t hypotheses = 20000;  ///< Peaks of the voting, over all references and views of one part.
-  std::uint32_t clusters = 4000;
-  std::uint32_t judged = 600;               ///< Hypotheses that are refined and verified, for one part.
+  std::uint32_t hypotheses = 40000;  ///< Peaks of the voting, over all references and views of one part.
+  std::uint32_t clusters = 6000;
+  std::uint32_t judged = 600;               ///< Hypotheses that are refined and verified, over all parts.
   std::uint32_t instances = 100;            ///< Accepted, over all parts.
   std::uint32_t maximum_references = 8192;  ///< References of all views of one bank.
-  std::uint32_t maximum_surface = 4096;     ///< Surface points of one bank.
-  std::uint32_t maximum_parts = 8;
+  std::uint32_t maximum_cells = 65536;      ///< Cells of one bank's PPF grid.
   int threads = 1;
 };
 
 /// Everything that can be set about a detection; a bank brings its own thresholds.
 struct DetectParameters {
   PreprocessParameters preprocess;
+  MatchParameters match;
+  ClusterParameters cluster;
+  RefineParameters refine;
+  VerifyParameters verify;
   int threads = 1;
 };
 

@@ -47,7 +47,7 @@ std::pair<int, int> pixel_range(double low, double high, int size) {
 }
 
 void fill_triangle(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c, const Camera& camera,
-                   std::span<float> depth) {
+                   RenderedSurface surface, std::span<float> depth) {
   const double area = (b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v);
   if (!(std::abs(area) > 1e-12)) return;
   const double step_u = ((b.inverse_z - a.inverse_z) * (c.v - a.v) - (c.inverse_z - a.inverse_z) * (b.v - a.v)) / area;
@@ -69,13 +69,15 @@ void fill_triangle(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint
     float* const row = depth.data() + camera.index(0, v);
     for (int u = left; u <= right; ++u) {
       const float z = 1.0F / std::clamp(start + gradient * static_cast<float>(u - left), farthest, nearest);
-      row[u] = row[u] == 0.0F || z < row[u] ? z : row[u];
+      const bool wins = surface == RenderedSurface::nearest ? z < row[u] : z > row[u];
+      row[u] = row[u] == 0.0F || wins ? z : row[u];
     }
   }
 }
 
 /// Draws the part of a triangle that lies beyond the near plane: three or four corners of it.
-void draw_clipped(const std::array<Vector3, 3>& corners, const Camera& camera, std::span<float> depth) {
+void draw_clipped(const std::array<Vector3, 3>& corners, const Camera& camera, RenderedSurface surface,
+                  std::span<float> depth) {
   std::array<ScreenPoint, 4> kept;
   std::size_t count = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -89,7 +91,7 @@ void draw_clipped(const std::array<Vector3, 3>& corners, const Camera& camera, s
       kept[count++] = to_screen(crossing, camera);
     }
   }
-  for (std::size_t i = 2; i < count; ++i) fill_triangle(kept[0], kept[i - 1], kept[i], camera, depth);
+  for (std::size_t i = 2; i < count; ++i) fill_triangle(kept[0], kept[i - 1], kept[i], camera, surface, depth);
 }
 
 }  // namespace
@@ -119,7 +121,7 @@ ImageRectangle projected_bounds(const MeshView& mesh, const RigidTransform& came
 }
 
 void draw_depth(const MeshView& mesh, const RigidTransform& camera_from_part, const Camera& camera,
-                std::span<float> depth) {
+                std::span<float> depth, RenderedSurface surface) {
   const std::size_t vertex_count = mesh.vertices.size();
   for (const Triangle& t : mesh.triangles) {
     if (t[0] >= vertex_count || t[1] >= vertex_count || t[2] >= vertex_count) continue;
@@ -128,17 +130,17 @@ void draw_depth(const MeshView& mesh, const RigidTransform& camera_from_part, co
     if (!corners[0].allFinite() || !corners[1].allFinite() || !corners[2].allFinite()) continue;
     if (corners[0].z() >= near_plane && corners[1].z() >= near_plane && corners[2].z() >= near_plane) {
       fill_triangle(to_screen(corners[0], camera), to_screen(corners[1], camera), to_screen(corners[2], camera), camera,
-                    depth);
+                    surface, depth);
     } else {
-      draw_clipped(corners, camera, depth);
+      draw_clipped(corners, camera, surface, depth);
     }
   }
 }
 
 void render_depth(const MeshView& mesh, const RigidTransform& camera_from_part, const Camera& camera,
-                  std::span<float> depth) {
+                  std::span<float> depth, RenderedSurface surface) {
   std::fill(depth.begin(), depth.end(), 0.0F);
-  draw_depth(mesh, camera_from_part, camera, depth);
+  draw_depth(mesh, camera_from_part, camera, depth, surface);
 }
 
 }  // namespace graspd

@@ -36,15 +36,18 @@ struct ImageRectangle {
 [[nodiscard]] ImageRectangle projected_bounds(const MeshView& mesh, const RigidTransform& camera_from_part,
                                               const Camera& camera);
 
-/// Draws the posed mesh into a depth image: metres along z at each pixel's ray, the nearest surface
+/// Which surface along a pixel's ray is drawn: the one the sensor sees, or the last one behind it.
+enum class RenderedSurface { nearest, farthest };
+
+/// Draws the posed mesh into a depth image: metres along z at each pixel's ray, the chosen surface
 /// wins over others and over what `depth` holds already, 0 means nothing there. Both sides of a
 /// triangle are drawn. `depth` holds camera.pixel_count() values, row by row. Never allocates.
 /// Triangles with indices out of range or coordinates that are not finite are left out.
 void draw_depth(const MeshView& mesh, const RigidTransform& camera_from_part, const Camera& camera,
-                std::span<float> depth);
+                std::span<float> depth, RenderedSurface surface = RenderedSurface::nearest);
 
 /// As draw_depth, into an image that is cleared to 0 first.
 void render_depth(const MeshView& mesh, const RigidTransform& camera_from_part, const Camera& camera,
-                  std::span<float> depth);
+                  std::span<float> depth, RenderedSurface surface = RenderedSurface::nearest);
 
 }  // namespace graspd

@@ -1,0 +1,180 @@
+#include "core/detect/background.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace graspd {
+
+namespace {
+
+/// Bridges the gaps of one line of the image, from valid neighbour to valid neighbour.
+void bridge_line(SceneMap& map, bool along_rows, int line) {
+  const int length = along_rows ? map.camera.width : map.camera.height;
+  const auto depth = [&](int i) -> float& {
+    return along_rows ? map.at(i, line).background : map.at(line, i).background;
+  };
+  int last = -1;
+  for (int i = 0; i < length; ++i) {
+    if (depth(i) <= 0.0F) continue;
+    for (int gap = last + 1; gap < i; ++gap) {
+      const float share = last < 0 ? 1.0F : static_cast<float>(gap - last) / static_cast<float>(i - last);
+      depth(gap) = last < 0 ? depth(i) : depth(last) + share * (depth(i) - depth(last));
+    }
+    last = i;
+  }
+  for (int i = last + 1; last >= 0 && i < length; ++i) depth(i) = depth(last);
+}
+
+/// The nearest background around a cell: at a wall the depth of the background is not sharp.
+float nearest_background(const SceneMap& empty_bin, int u, int v) {
+  float nearest = 1e6F;
+  for (int dv = -1; dv <= 1; ++dv) {
+    for (int du = -1; du <= 1; ++du) {
+      if (!empty_bin.camera.contains(u + du, v + dv)) continue;
+      const float depth = empty_bin.at(u + du, v + dv).background;
+      if (depth > 0.0F) nearest = std::min(nearest, depth);
+    }
+  }
+  return nearest < 1e6F ? nearest : 0.0F;
+}
+
+/// A linear congruential sequence: the planes that are tried must not depend on the run.
+struct Sequence {
+  std::uint32_t state = 12345;
+  std::size_t next(std::size_t below) {
+    state = state * 1664525U + 1013904223U;
+    return static_cast<std::size_t>(state >> 8U) % below;
+  }
+};
+
+constexpr std::size_t plane_samples = 4096;
+
+struct PlaneSupport {
+  int on = 0;
+  int behind = 0;
+};
+
+PlaneSupport support_of(const SupportPlane& plane, std::span<const Vector3> samples, float margin) {
+  PlaneSupport support;
+  for (const Vector3& sample : samples) {
+    const float height = plane.height(sample);
+    support.on += std::abs(height) < margin ? 1 : 0;
+    support.behind += height < -3.0F * margin ? 1 : 0;
+  }
+  return support;
+}
+
+SupportPlane plane_through(const Vector3& a, const Vector3& b, const Vector3& c) {
+  SupportPlane plane;
+  const Vector3 cross = (b - a).cross(c - a);
+  const float length = cross.norm();
+  if (length < 1e-9F) return plane;
+  plane.normal = cross / length;
+  if (plane.normal.dot(a) > 0.0F) plane.normal = -plane.normal;
+  plane.offset = plane.normal.dot(a);
+  plane.found = true;
+  return plane;
+}
+
+/// Least squares through the samples near the plane.
+SupportPlane polished(const SupportPlane& plane, std::span<const Vector3> samples, float margin) {
+  Vector3 mean = Vector3::Zero();
+  Matrix3 second = Matrix3::Zero();
+  float count = 0;
+  for (const Vector3& sample : samples) {
+    if (std::abs(plane.height(sample)) > margin) continue;
+    mean += sample;
+    second += sample * sample.transpose();
+    count += 1.0F;
+  }
+  if (count < 10.0F) return plane;
+  mean /= count;
+  Eigen::SelfAdjointEigenSolver<Matrix3> solver;
+  solver.computeDirect(second / count - mean * mean.transpose());
+  SupportPlane better = plane;
+  better.normal = solver.eigenvectors().col(0).normalized();
+  if (better.normal.dot(mean) > 0.0F) better.normal = -better.normal;
+  better.offset = better.normal.dot(mean);
+  return better;
+}
+
+}  // namespace
+
+void remove_background_by_frame(SceneMap& empty_bin, float margin, int threads, SceneMap& map) {
+  for (MapCell& cell : empty_bin.cells) cell.background = cell.point.z();
+  for (int v = 0; v < empty_bin.camera.height; ++v) bridge_line(empty_bin, true, v);
+  for (int u = 0; u < empty_bin.camera.width; ++u) bridge_line(empty_bin, false, u);
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (int v = 0; v < map.camera.height; ++v) {
+    for (int u = 0; u < map.camera.width; ++u) {
+      MapCell& cell = map.at(u, v);
+      cell.background = nearest_background(empty_bin, u, v);
+      if (!cell.measured()) continue;
+      const bool stands_out = cell.background <= 0.0F || cell.point.z() < cell.background - margin;
+      if (!stands_out) cell.foreground = 0;
+    }
+  }
+}
+
+SupportPlane remove_background_by_plane(float margin, int threads, SceneMap& map) {
+  std::array<Vector3, plane_samples> storage;
+  std::size_t count = 0;
+  std::size_t measured = 0;
+  for (const MapCell& cell : map.cells) measured += cell.measured() ? 1 : 0;
+  const std::size_t step = measured / plane_samples + 1;
+  std::size_t seen = 0;
+  for (const MapCell& cell : map.cells) {
+    if (!cell.measured() || seen++ % step != 0 || count == plane_samples) continue;
+    storage[count++] = cell.point;
+  }
+  const std::span<const Vector3> samples(storage.data(), count);
+  SupportPlane best;
+  if (count < 100) return best;
+
+  // Behind what carries the parts nothing is seen but noise; and a plane that carries less than a
+  // twentieth of the scene is more likely the flat side of a part.
+  const int fair = static_cast<int>(count / 20);
+  const int stray = static_cast<int>(count / 50);
+  int best_on = fair;
+  Sequence sequence;
+  for (int trial = 0; trial < 500; ++trial) {
+    const SupportPlane plane =
+        plane_through(samples[sequence.next(count)], samples[sequence.next(count)], samples[sequence.next(count)]);
+    if (!plane.found) continue;
+    const PlaneSupport support = support_of(plane, samples, margin);
+    if (support.on <= best_on || support.behind > stray) continue;
+    best_on = support.on;
+    best = plane;
+  }
+  if (!best.found) return best;
+  for (int round = 0; round < 3; ++round) best = polished(best, samples, margin);
+
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (int v = 0; v < map.camera.height; ++v) {
+    for (int u = 0; u < map.camera.width; ++u) {
+      MapCell& cell = map.at(u, v);
+      const Vector3 ray = map.camera.point(static_cast<float>(u), static_cast<float>(v), 1.0F);
+      const float slope = best.normal.dot(ray);
+      if (slope < -1e-3F) cell.background = best.offset / slope;
+      if (cell.measured() && best.height(cell.point) < margin) cell.foreground = 0;
+    }
+  }
+  return best;
+}
+
+void remove_background_by_box(const RigidTransform& box_from_camera, const Vector3& half_size, int threads,
+                              SceneMap& map) {
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (int v = 0; v < map.camera.height; ++v) {
+    for (int u = 0; u < map.camera.width; ++u) {
+      MapCell& cell = map.at(u, v);
+      if (!cell.measured()) continue;
+      const Vector3 point = box_from_camera * cell.point;
+      if ((point.cwiseAbs().array() > half_size.array()).any()) cell.foreground = 0;
+    }
+  }
+}
+
+}  // namespace graspd

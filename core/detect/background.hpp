@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+
+#include "core/detect/parameters.hpp"
+#include "core/detect/scene_map.hpp"
+
+namespace graspd {
+
+/// What carries the parts, when it is a plane: n . x = offset with n towards the sensor.
+struct SupportPlane {
+  bool found = false;
+  Vector3 normal = -Vector3::UnitZ();
+  float offset = 0;  ///< Metres.
+
+  [[nodiscard]] float height(const Vector3& point) const { return normal.dot(point) - offset; }
+};
+
+/// Marks as background what does not stand out from the map of the empty bin, and writes the depth of
+/// the background into every cell of `map`. Unmeasured cells of the empty bin are bridged.
+void remove_background_by_frame(SceneMap& empty_bin, float margin, int threads, SceneMap& map);
+
+/// Finds the dominant plane behind which next to nothing is measured, and marks what does not stand
+/// out from it as background. Finds none when no such plane holds a fair share of the scene: then all
+/// that is measured stays foreground.
+[[nodiscard]] SupportPlane remove_background_by_plane(float margin, int threads, SceneMap& map);
+
+/// Marks as background what lies outside a box.
+void remove_background_by_box(const RigidTransform& box_from_camera, const Vector3& half_size, int threads,
+                              SceneMap& map);
+
+}  // namespace graspd

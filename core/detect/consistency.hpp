@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/bank/bank.hpp"
+#include "core/detect/scene_map.hpp"
+
+namespace graspd {
+
+/// What the scene says about the surface that a pose would show to the sensor, in points.
+struct Consistency {
+  int facing = 0;      ///< Points that the sensor would see if nothing stood in front.
+  int confirmed = 0;   ///< Measured where they should be, with the right normal.
+  int behind = 0;      ///< The scene lies behind them: they stand in free space.
+  int occluded = 0;    ///< The scene lies in front of them.
+  int unmeasured = 0;  ///< The sensor saw nothing there, or they fall outside the image.
+
+  /// A rough measure of how likely the pose is, in [-1, 1].
+  [[nodiscard]] float score() const {
+    return facing == 0
+               ? -1.0F
+               : (static_cast<float>(confirmed) - 0.7F * static_cast<float>(behind)) / static_cast<float>(facing);
+  }
+};
+
+/// Looks up to `points` surface points of the bank's part up in the map. A point is confirmed within
+/// `tolerance` metres along the ray. Points that the pose hides by itself are left out.
+[[nodiscard]] Consistency scene_consistency(const SceneMap& map, const Bank& bank,
+                                            const RigidTransform& camera_from_part, int points, float tolerance);
+
+}  // namespace graspd

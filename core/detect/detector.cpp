@@ -1,0 +1,152 @@
+#include "core/detect/detector.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+
+#include "core/detect/refine.hpp"
+#include "core/detect/verify.hpp"
+
+namespace graspd {
+
+namespace {
+
+/// Books the time since the last stage ended.
+class StageClock {
+ public:
+  StageClock(const DetectRequest& request, Detections& detections)
+      : now_(request.now_ns), last_(now_ == nullptr ? 0 : now_()), detections_(detections) {}
+  void end_of(Stage stage) {
+    if (now_ == nullptr) return;
+    const std::int64_t now = now_();
+    detections_.stage_ns[static_cast<std::size_t>(stage)] += now - last_;
+    last_ = now;
+  }
+
+ private:
+  std::int64_t (*now_)();
+  std::int64_t last_;
+  Detections& detections_;
+};
+
+bool late(const DetectRequest& request) {
+  return request.now_ns != nullptr && request.deadline_ns != 0 && request.now_ns() >= request.deadline_ns;
+}
+
+Status check(const DepthFrame& frame, const DetectRequest& request, const DetectParameters& parameters,
+             const DetectCapacity& capacity) {
+  const auto fits = [&](const DepthFrame& candidate) {
+    return candidate.camera.width > 0 && candidate.camera.height > 0 && candidate.camera.fx > 0.0F &&
+           candidate.camera.fy > 0.0F && candidate.depth.size() == candidate.camera.pixel_count();
+  };
+  if (!fits(frame))
+    return {StatusCode::bad_frame, "the frame has no camera or another number of pixels than its camera"};
+  if (frame.camera.width > capacity.maximum_width || frame.camera.height > capacity.maximum_height)
+    return Status::format(StatusCode::bad_frame, "the frame is %d x %d pixels, memory was set aside for %d x %d",
+                          frame.camera.width, frame.camera.height, capacity.maximum_width, capacity.maximum_height);
+  if (!request.empty_bin.depth.empty() &&
+      (!fits(request.empty_bin) || request.empty_bin.camera.width != frame.camera.width ||
+       request.empty_bin.camera.height != frame.camera.height))
+    return Status::format(StatusCode::bad_frame, "the empty bin is %d x %d pixels, the frame %d x %d",
+                          request.empty_bin.camera.width, request.empty_bin.camera.height, frame.camera.width,
+                          frame.camera.height);
+  if (parameters.threads < 1 || parameters.threads > capacity.threads)
+    return Status::format(StatusCode::memory_limit, "%d threads were asked for, memory was set aside for %d",
+                          parameters.threads, capacity.threads);
+  for (const Bank& bank : request.banks) {
+    if (bank.reference_points.size() > capacity.maximum_references || bank.grid.cell_count() > capacity.maximum_cells)
+      return Status::format(StatusCode::memory_limit,
+                            "bank '%s' has %zu references and %u cells, the limits are %u and %u",
+                            bank.part->name.data(), bank.reference_points.size(), bank.grid.cell_count(),
+                            capacity.maximum_references, capacity.maximum_cells);
+  }
+  return {};
+}
+
+/// Refines a cluster's pose and holds it against the scene.
+Instance judge(const Scene& scene, const Bank& bank, std::uint32_t bank_index, const PoseCluster& cluster,
+               const DetectParameters& parameters, std::span<float> image) {
+  Instance instance;
+  instance.bank = bank_index;
+  instance.view = cluster.view;
+  instance.votes = cluster.votes;
+  instance.camera_from_part = refine_pose(scene.map, bank, cluster.camera_from_part, parameters.refine);
+  const RenderedModel model = render_model(scene.map, bank, instance.camera_from_part, image.first(image.size() / 2),
+                                           image.subspan(image.size() / 2));
+  instance.evidence = gather_evidence(scene.map, bank, model, parameters.verify, {});
+  instance.score = score_of(instance.evidence);
+  if (parameters.verify.tests) instance.rejection = failed_test(instance.evidence, bank.part->thresholds);
+  return instance;
+}
+
+void judge_clusters(const Scene& scene, const DetectRequest& request, std::uint32_t bank_index,
+                    const DetectParameters& parameters, DetectWorkspace& workspace, Detections& detections) {
+  const std::size_t first = workspace.judged.size();
+  const std::size_t count = std::min(workspace.clusters.size(), workspace.judged.capacity() - first);
+  if (count < workspace.clusters.size()) detections.flags |= flag_hypotheses_cut;
+  workspace.judged.assume_size(first + count);
+#pragma omp parallel for num_threads(parameters.threads) schedule(dynamic, 2)
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::span<float> image = workspace.rendering[static_cast<std::size_t>(omp_get_thread_num())];
+    workspace.judged[first + i] =
+        judge(scene, request.banks[bank_index], bank_index, workspace.clusters[i], parameters, image);
+  }
+}
+
+}  // namespace
+
+Status detect(const DepthFrame& frame, const DetectRequest& request, const DetectParameters& parameters,
+              DetectWorkspace& workspace, Detections& detections) {
+  detections = Detections{};
+  workspace.judged.clear();
+  workspace.accepted.clear();
+  workspace.rejected.clear();
+  if (Status status = check(frame, request, parameters, workspace.capacity); !status.ok()) return status;
+  if (request.banks.empty()) return {};
+  StageClock clock(request, detections);
+
+  float finest = request.banks.front().part->sampling;
+  for (const Bank& bank : request.banks) finest = std::min(finest, bank.part->sampling);
+  const Scene scene =
+      preprocess(frame, request.empty_bin, finest, parameters.preprocess, parameters.threads, workspace.preprocess);
+  detections.measured_pixels = scene.measured_pixels;
+  detections.foreground_pixels =
+      scene.foreground_cells * static_cast<std::uint32_t>(scene.map.stride * scene.map.stride);
+  clock.end_of(Stage::preprocess);
+
+  for (std::uint32_t b = 0; b < request.banks.size(); ++b) {
+    const Bank& bank = request.banks[b];
+    const float reach = bank.grid.distance_step * static_cast<float>(bank.grid.distance_bins);
+    const NeighbourGrid points = sample_for(scene, bank.part->sampling, reach, workspace.preprocess);
+    detections.scene_points += static_cast<std::uint32_t>(points.points.size());
+    if (workspace.preprocess.samples.dropped() > 0) detections.flags |= flag_scene_points_cut;
+    clock.end_of(Stage::preprocess);
+
+    match(points, bank, parameters.match, parameters.threads, workspace.match, workspace.hypotheses);
+    clock.end_of(Stage::match);
+
+    cluster_hypotheses(workspace.hypotheses.span(), bank, parameters.cluster, workspace.cluster, workspace.clusters);
+    if (workspace.clusters.dropped() > 0) detections.flags |= flag_hypotheses_cut;
+    keep_plausible(scene.map, bank, parameters.cluster.judged, parameters.threads, workspace.clusters);
+    clock.end_of(Stage::cluster);
+
+    judge_clusters(scene, request, b, parameters, workspace, detections);
+    clock.end_of(Stage::refine);
+    if (late(request)) {
+      detections.flags |= flag_deadline;
+      break;
+    }
+  }
+
+  detections.flags |=
+      select_instances(scene.map, request.banks, parameters.verify, request.minimum_score, workspace.judged.span(),
+                       workspace.select, workspace.accepted, workspace.rejected);
+  clock.end_of(Stage::verify);
+  for (const Instance& instance : workspace.rejected)
+    ++detections.rejections[static_cast<std::size_t>(instance.rejection)];
+  detections.instances = workspace.accepted.span();
+  detections.rejected = workspace.rejected.span();
+  return {};
+}
+
+}  // namespace graspd

@@ -1,0 +1,48 @@
+#include "core/detect/neighbour_grid.hpp"
+
+#include <algorithm>
+
+namespace graspd {
+
+NeighbourGrid build_neighbour_grid(std::span<const OrientedPoint> points, float edge,
+                                   const NeighbourGridStorage& storage) {
+  NeighbourGrid grid;
+  grid.points = storage.points.first(points.size());
+  Vector3 low = Vector3::Constant(1e9F);
+  Vector3 high = Vector3::Constant(-1e9F);
+  for (const OrientedPoint& point : points) {
+    low = low.cwiseMin(point.position);
+    high = high.cwiseMax(point.position);
+  }
+  if (points.empty()) low = high = Vector3::Zero();
+  grid.origin = low;
+  grid.edge = edge;
+  const auto cells_at = [&](float candidate) {
+    return ((high - low) / candidate).array().floor().matrix().cast<std::int64_t>() +
+           Eigen::Matrix<std::int64_t, 3, 1>::Ones();
+  };
+  while (cells_at(grid.edge).prod() >= static_cast<std::int64_t>(most_grid_cells)) grid.edge *= 1.25F;
+  grid.size = cells_at(grid.edge).cast<int>();
+  const auto cell_count = static_cast<std::size_t>(grid.size.prod());
+  grid.starts = storage.starts.first(cell_count + 1);
+
+  const auto index_of = [&](const OrientedPoint& point) {
+    const Eigen::Vector3i cell = grid.cell_of(point.position);
+    return static_cast<std::size_t>((cell.z() * grid.size.y() + cell.y()) * grid.size.x() + cell.x());
+  };
+  std::fill(grid.starts.begin(), grid.starts.end(), 0U);
+  for (const OrientedPoint& point : points) ++grid.starts[index_of(point)];
+  std::uint32_t sum = 0;
+  for (std::uint32_t& start : grid.starts) {
+    const std::uint32_t count = start;
+    start = sum;
+    sum += count;
+  }
+  for (const OrientedPoint& point : points) grid.points[grid.starts[index_of(point)]++] = point;
+  // Filling moved every start to its end, which is the next one's start.
+  std::copy_backward(grid.starts.begin(), grid.starts.end() - 1, grid.starts.end());
+  grid.starts[0] = 0;
+  return grid;
+}
+
+}  // namespace graspd

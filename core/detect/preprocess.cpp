@@ -1,0 +1,87 @@
+#include "core/detect/preprocess.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graspd {
+
+namespace {
+
+/// A depth that is typical of the frame: the median of a sparse sample, by halving the range.
+float typical_depth(const DepthFrame& frame) {
+  constexpr std::size_t step = 97;
+  float low = 0.0F;
+  float high = 100.0F;
+  for (int halving = 0; halving < 24; ++halving) {
+    const float middle = 0.5F * (low + high);
+    std::size_t nearer = 0;
+    std::size_t all = 0;
+    for (std::size_t i = 0; i < frame.depth.size(); i += step) {
+      if (frame.depth[i] <= 0.0F) continue;
+      ++all;
+      nearer += frame.depth[i] < middle ? 1 : 0;
+    }
+    (2 * nearer < all ? low : high) = middle;
+  }
+  return 0.5F * (low + high);
+}
+
+int stride_for(const DepthFrame& frame, float sampling, float cells_per_voxel, std::size_t most_cells) {
+  const float voxel_pixels = sampling * frame.camera.fx / std::max(typical_depth(frame), 0.01F);
+  int stride = std::max(1, static_cast<int>(std::lround(voxel_pixels / cells_per_voxel)));
+  while (make_scene_map(frame.camera, stride, {}).camera.pixel_count() > most_cells) ++stride;
+  return stride;
+}
+
+}  // namespace
+
+PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacity& capacity) {
+  PreprocessWorkspace workspace;
+  const std::size_t cells = capacity.map_cells;
+  workspace.map_cells = arena.take<MapCell>(cells, "scene map");
+  workspace.empty_cells = arena.take<MapCell>(cells, "scene map");
+  workspace.segments.parent = arena.take<std::uint32_t>(cells, "segmentation");
+  workspace.segments.size = arena.take<std::uint32_t>(cells, "segmentation");
+  workspace.sampling.keys = arena.take<VoxelKey>(cells, "sampling");
+  workspace.sampling.scratch = arena.take<VoxelKey>(cells, "sampling");
+  workspace.samples = FixedVector(arena.take<OrientedPoint>(capacity.scene_points, "sampling"));
+  workspace.grid.points = arena.take<OrientedPoint>(capacity.scene_points, "sampling");
+  workspace.grid.starts = arena.take<std::uint32_t>(most_grid_cells + 1, "sampling");
+  return workspace;
+}
+
+Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float sampling,
+                 const PreprocessParameters& parameters, int threads, PreprocessWorkspace& workspace) {
+  Scene scene;
+  const int stride = stride_for(frame, sampling, parameters.cells_per_voxel, workspace.map_cells.size());
+  scene.map = make_scene_map(frame.camera, stride, workspace.map_cells);
+  bin_frame(frame, threads, scene.map);
+
+  const bool by_frame = parameters.background == BackgroundMode::automatic && !empty_bin.depth.empty();
+  if (by_frame) {
+    SceneMap empty_map = make_scene_map(empty_bin.camera, stride, workspace.empty_cells);
+    bin_frame(empty_bin, threads, empty_map);
+    remove_background_by_frame(empty_map, parameters.background_margin, threads, scene.map);
+  } else if (parameters.background == BackgroundMode::automatic || parameters.background == BackgroundMode::plane) {
+    scene.plane = remove_background_by_plane(parameters.background_margin, threads, scene.map);
+  } else if (parameters.background == BackgroundMode::box) {
+    remove_background_by_box(parameters.box_from_camera, parameters.box_half_size, threads, scene.map);
+  }
+  if (parameters.segmentation) {
+    const auto cells = static_cast<std::uint32_t>(2.0F * parameters.cells_per_voxel * parameters.cells_per_voxel);
+    (void)segment_foreground(cells, workspace.segments, scene.map);
+  }
+  const int radius = std::clamp(static_cast<int>(std::lround(0.5F * parameters.cells_per_voxel)), 1, 4);
+  fit_normals(radius, threads, scene.map);
+
+  for (const float depth : frame.depth) scene.measured_pixels += depth > 0.0F ? 1 : 0;
+  for (const MapCell& cell : scene.map.cells) scene.foreground_cells += cell.foreground != 0 ? 1 : 0;
+  return scene;
+}
+
+NeighbourGrid sample_for(const Scene& scene, float sampling, float reach, PreprocessWorkspace& workspace) {
+  sample_scene(scene.map, sampling, workspace.sampling, workspace.samples);
+  return build_neighbour_grid(workspace.samples.span(), 0.5F * reach, workspace.grid);
+}
+
+}  // namespace graspd

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "core/bank/bank.hpp"
+#include "core/detect/background.hpp"
+#include "core/detect/neighbour_grid.hpp"
+#include "core/detect/parameters.hpp"
+#include "core/detect/sampling.hpp"
+#include "core/detect/scene_map.hpp"
+#include "core/detect/segmentation.hpp"
+#include "core/memory/arena.hpp"
+#include "core/memory/fixed_vector.hpp"
+
+namespace graspd {
+
+/// The scene as the stages after the preprocessing see it.
+struct Scene {
+  SceneMap map;
+  SupportPlane plane;
+  std::uint32_t measured_pixels = 0;
+  std::uint32_t foreground_cells = 0;
+};
+
+struct PreprocessWorkspace {
+  std::span<MapCell> map_cells;
+  std::span<MapCell> empty_cells;
+  SegmentWorkspace segments;
+  SamplingWorkspace sampling;
+  FixedVector<OrientedPoint> samples;
+  NeighbourGridStorage grid;
+};
+
+[[nodiscard]] PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacity& capacity);
+
+/// Bins the frame, removes the background, splits the rest into segments and fits normals (paper
+/// 2.4.1), at a resolution that suits a part sampled at `sampling` metres. `empty_bin` may have no depth.
+[[nodiscard]] Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float sampling,
+                               const PreprocessParameters& parameters, int threads, PreprocessWorkspace& workspace);
+
+/// The scene points that vote for a part sampled at `sampling`, in a grid for pairs up to `reach` apart.
+[[nodiscard]] NeighbourGrid sample_for(const Scene& scene, float sampling, float reach, PreprocessWorkspace& workspace);
+
+}  // namespace graspd

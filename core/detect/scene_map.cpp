@@ -1,0 +1,210 @@
+#include "core/detect/scene_map.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace graspd {
+
+namespace {
+
+/// Depth range [low, high] that holds the larger of the two surfaces seen in a block.
+struct DepthRange {
+  float low = 0;
+  float high = 0;
+  int count = 0;
+};
+
+template <class Visit>
+void for_each_pixel(const DepthFrame& frame, int stride, int mu, int mv, Visit visit) {
+  const int v_end = std::min((mv + 1) * stride, frame.camera.height);
+  const int u_end = std::min((mu + 1) * stride, frame.camera.width);
+  for (int v = mv * stride; v < v_end; ++v) {
+    for (int u = mu * stride; u < u_end; ++u) {
+      const float z = frame.at(u, v);
+      if (z > 0.0F) visit(u, v, z);
+    }
+  }
+}
+
+DepthRange range_of_block(const DepthFrame& frame, int stride, int mu, int mv, float low, float high) {
+  DepthRange range{high, low, 0};
+  for_each_pixel(frame, stride, mu, mv, [&](int, int, float z) {
+    if (z < low || z > high) return;
+    range.low = std::min(range.low, z);
+    range.high = std::max(range.high, z);
+    ++range.count;
+  });
+  return range;
+}
+
+/// Halves the range, keeping the fuller half, until it is one surface.
+DepthRange larger_surface(const DepthFrame& frame, int stride, int mu, int mv, float step) {
+  DepthRange range = range_of_block(frame, stride, mu, mv, 1e-6F, 1e6F);
+  for (int halving = 0; halving < 8 && range.count > 0 && range.high - range.low > step; ++halving) {
+    const float middle = 0.5F * (range.low + range.high);
+    const DepthRange near = range_of_block(frame, stride, mu, mv, range.low, middle);
+    const DepthRange far = range_of_block(frame, stride, mu, mv, std::nextafter(middle, 1e6F), range.high);
+    range = near.count >= far.count ? near : far;
+  }
+  return range;
+}
+
+Vector3 mean_point(const DepthFrame& frame, int stride, int mu, int mv, const DepthRange& range) {
+  float su = 0;
+  float sv = 0;
+  float sz = 0;
+  for_each_pixel(frame, stride, mu, mv, [&](int u, int v, float z) {
+    if (z < range.low || z > range.high) return;
+    su += static_cast<float>(u);
+    sv += static_cast<float>(v);
+    sz += z;
+  });
+  const float scale = 1.0F / static_cast<float>(range.count);
+  return frame.camera.point(su * scale, sv * scale, sz * scale);
+}
+
+bool supported(const SceneMap& map, int u, int v) {
+  const float z = map.at(u, v).point.z();
+  const float step = map.surface_step(z);
+  int support = 0;
+  for (int dv = -1; dv <= 1; ++dv) {
+    for (int du = -1; du <= 1; ++du) {
+      if ((du == 0 && dv == 0) || !map.camera.contains(u + du, v + dv)) continue;
+      const float other = map.at(u + du, v + dv).point.z();
+      support += other > 0.0F && std::abs(other - z) < step * (du != 0 && dv != 0 ? 1.5F : 1.0F) ? 1 : 0;
+    }
+  }
+  return support >= 3;
+}
+
+/// z = a x + b y + c by least squares about `origin`, over the cells near the plane so far.
+struct PlaneFit {
+  float a = 0;
+  float b = 0;
+  float c = 0;
+  float deviation = 0;  ///< Root mean square, along z.
+  int count = 0;
+};
+
+PlaneFit fit_plane(const SceneMap& map, int u, int v, int radius, const PlaneFit& guess, float gate) {
+  const Vector3 origin = map.at(u, v).point;
+  float sx = 0;
+  float sy = 0;
+  float sz = 0;
+  float sxx = 0;
+  float sxy = 0;
+  float syy = 0;
+  float sxz = 0;
+  float syz = 0;
+  float szz = 0;
+  int n = 0;
+  const int v_end = std::min(v + radius, map.camera.height - 1);
+  const int u_end = std::min(u + radius, map.camera.width - 1);
+  for (int y = std::max(v - radius, 0); y <= v_end; ++y) {
+    for (int x = std::max(u - radius, 0); x <= u_end; ++x) {
+      const Vector3& point = map.at(x, y).point;
+      if (point.z() <= 0.0F) continue;
+      const Vector3 d = point - origin;
+      if (std::abs(d.z() - (guess.a * d.x() + guess.b * d.y() + guess.c)) > gate) continue;
+      sx += d.x();
+      sy += d.y();
+      sz += d.z();
+      sxx += d.x() * d.x();
+      sxy += d.x() * d.y();
+      syy += d.y() * d.y();
+      sxz += d.x() * d.z();
+      syz += d.y() * d.z();
+      szz += d.z() * d.z();
+      ++n;
+    }
+  }
+  PlaneFit fit;
+  fit.count = n;
+  if (n < 5) return fit;
+  const float scale = 1.0F / static_cast<float>(n);
+  const float cxx = sxx - sx * sx * scale;
+  const float cxy = sxy - sx * sy * scale;
+  const float cyy = syy - sy * sy * scale;
+  const float cxz = sxz - sx * sz * scale;
+  const float cyz = syz - sy * sz * scale;
+  const float determinant = cxx * cyy - cxy * cxy;
+  if (determinant <= 1e-3F * cxx * cyy) {
+    fit.count = 0;
+    return fit;
+  }
+  fit.a = (cxz * cyy - cyz * cxy) / determinant;
+  fit.b = (cyz * cxx - cxz * cxy) / determinant;
+  fit.c = (sz - fit.a * sx - fit.b * sy) * scale;
+  const float czz = szz - sz * sz * scale;
+  fit.deviation = std::sqrt(std::max(0.0F, (czz - fit.a * cxz - fit.b * cyz) * scale));
+  return fit;
+}
+
+}  // namespace
+
+SceneMap make_scene_map(const Camera& camera, int stride, std::span<MapCell> storage) {
+  SceneMap map;
+  map.stride = stride;
+  const auto scale = static_cast<float>(stride);
+  const float centre = 0.5F * (scale - 1.0F);
+  map.camera.width = (camera.width + stride - 1) / stride;
+  map.camera.height = (camera.height + stride - 1) / stride;
+  map.camera.fx = camera.fx / scale;
+  map.camera.fy = camera.fy / scale;
+  map.camera.cx = (camera.cx - centre) / scale;
+  map.camera.cy = (camera.cy - centre) / scale;
+  map.cells = storage.first(std::min(map.camera.pixel_count(), storage.size()));
+  return map;
+}
+
+void bin_frame(const DepthFrame& frame, int threads, SceneMap& map) {
+  const int enough = std::max(1, map.stride * map.stride / 3);
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (int v = 0; v < map.camera.height; ++v) {
+    for (int u = 0; u < map.camera.width; ++u) {
+      MapCell& cell = map.at(u, v);
+      cell = MapCell{};
+      const DepthRange all = range_of_block(frame, map.stride, u, v, 1e-6F, 1e6F);
+      if (all.count < enough) continue;
+      const float step = map.surface_step(all.low);
+      const DepthRange range = all.high - all.low <= step ? all : larger_surface(frame, map.stride, u, v, step);
+      if (range.count >= enough) cell.point = mean_point(frame, map.stride, u, v, range);
+    }
+  }
+  // Support is judged on the map as it was, so cells are marked first and emptied afterwards.
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (int v = 0; v < map.camera.height; ++v) {
+    for (int u = 0; u < map.camera.width; ++u) {
+      MapCell& cell = map.at(u, v);
+      cell.foreground = cell.measured() && supported(map, u, v) ? 1 : 0;
+    }
+  }
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (int v = 0; v < map.camera.height; ++v) {
+    for (int u = 0; u < map.camera.width; ++u) {
+      MapCell& cell = map.at(u, v);
+      if (cell.foreground == 0) cell.point.setZero();
+    }
+  }
+}
+
+void fit_normals(int radius, int threads, SceneMap& map) {
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 8)
+  for (int v = 0; v < map.camera.height; ++v) {
+    for (int u = 0; u < map.camera.width; ++u) {
+      MapCell& cell = map.at(u, v);
+      if (cell.foreground == 0) continue;
+      const float step = map.surface_step(cell.point.z());
+      const PlaneFit coarse = fit_plane(map, u, v, radius, {}, step * static_cast<float>(radius));
+      if (coarse.count < 5) continue;
+      const float gate = std::max(1.5F * coarse.deviation, 0.2F * map.footprint(cell.point.z()));
+      const PlaneFit fine = fit_plane(map, u, v, radius, coarse, gate);
+      const PlaneFit& fit = fine.count >= 5 ? fine : coarse;
+      cell.normal = Vector3(fit.a, fit.b, -1.0F).normalized();
+      // A cell seen from behind its fitted plane is no surface that the sensor could have measured.
+      if (cell.normal.dot(cell.point) >= 0.0F) cell.normal.setZero();
+    }
+  }
+}
+
+}  // namespace graspd

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/geometry/depth_frame.hpp"
+#include "core/memory/arena.hpp"
+
+namespace graspd {
+
+/// A cell of the organised map: the mean of the pixels of one surface in a small block.
+struct MapCell {
+  Vector3 point = Vector3::Zero();   ///< Metres, camera frame; z = 0: nothing measured.
+  float background = 0;              ///< Depth of the background here (metres); 0: unknown.
+  Vector3 normal = Vector3::Zero();  ///< Unit length, towards the sensor; zero: none could be fitted.
+  std::uint32_t foreground = 0;      ///< Segment of the foreground from 1; 0: background or nothing.
+
+  [[nodiscard]] bool measured() const { return point.z() > 0.0F; }
+  [[nodiscard]] bool has_normal() const { return normal.z() != 0.0F; }
+};
+
+/// The scene as an image of surface points, binned so that a cell is a fixed share of a voxel. All
+/// stages after the preprocessing look here: a point is found by projecting it.
+struct SceneMap {
+  Camera camera;   ///< Of the map: one pixel is one cell.
+  int stride = 1;  ///< Frame pixels along the edge of a cell.
+  std::span<MapCell> cells;
+
+  [[nodiscard]] MapCell& at(int u, int v) { return cells[camera.index(u, v)]; }
+  [[nodiscard]] const MapCell& at(int u, int v) const { return cells[camera.index(u, v)]; }
+
+  /// The cell that `point` (camera frame) falls on, or null outside the image or behind the camera.
+  [[nodiscard]] const MapCell* look_up(const Vector3& point) const {
+    if (point.z() <= 0.0F) return nullptr;
+    const Eigen::Vector2f pixel = camera.project(point);
+    const int u = static_cast<int>(std::floor(pixel.x() + 0.5F));
+    const int v = static_cast<int>(std::floor(pixel.y() + 0.5F));
+    return camera.contains(u, v) ? &at(u, v) : nullptr;
+  }
+  /// Edge of a cell on a surface at depth `z` that faces the sensor (metres).
+  [[nodiscard]] float footprint(float z) const { return z / camera.fx; }
+  /// The largest step in depth (metres) between neighbouring cells that still is one surface, seen at up
+  /// to 76 degrees from its normal.
+  [[nodiscard]] float surface_step(float z) const { return 4.0F * footprint(z); }
+};
+
+/// Lays out a map over `storage` for frames of `camera`, `stride` pixels a cell.
+[[nodiscard]] SceneMap make_scene_map(const Camera& camera, int stride, std::span<MapCell> storage);
+
+/// Bins the frame into the map: in each block the larger of the surfaces it shows is averaged; blocks
+/// that are mostly unmeasured, and cells that no neighbour supports (flying pixels), stay empty.
+void bin_frame(const DepthFrame& frame, int threads, SceneMap& map);
+
+/// Fits a plane to the neighbourhood (`radius` cells) of each foreground cell, twice, the second time
+/// without the points off the first plane, so that normals stay sharp at creases.
+void fit_normals(int radius, int threads, SceneMap& map);
+
+}  // namespace graspd

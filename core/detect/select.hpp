@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/bank/bank.hpp"
+#include "core/detect/detections.hpp"
+#include "core/detect/parameters.hpp"
+#include "core/detect/verify.hpp"
+#include "core/memory/arena.hpp"
+#include "core/memory/fixed_vector.hpp"
+
+namespace graspd {
+
+/// The room an accepted instance takes up along the rays of the map.
+struct OccupiedRoom {
+  ImageRectangle rectangle;
+  std::size_t first = 0;  ///< Into SelectWorkspace::front and back.
+};
+
+struct SelectWorkspace {
+  std::span<std::uint16_t> claimed;  ///< For each map cell the accepted instance that explains it, from 1.
+  std::span<std::uint32_t> order;
+  std::span<float> front;  ///< Of all accepted instances, one after the other.
+  std::span<float> back;
+  FixedVector<OccupiedRoom> rooms;
+};
+
+[[nodiscard]] SelectWorkspace carve_select_workspace(Arena& arena, const DetectCapacity& capacity);
+
+/// Accepts judged hypotheses, best first, as long as each still has surface of its own that confirms
+/// it and does not stand in the room of one accepted before (spatial pose testing, paper 2.4.2).
+/// `judged` hold evidence and score, and a reason when they already failed a test. `minimum_score`
+/// overrides the banks' when not negative. Returns flags of DetectionFlag.
+[[nodiscard]] std::uint32_t select_instances(const SceneMap& map, std::span<const Bank> banks,
+                                             const VerifyParameters& parameters, float minimum_score,
+                                             std::span<Instance> judged, SelectWorkspace& workspace,
+                                             FixedVector<Instance>& accepted, FixedVector<Instance>& rejected);
+
+}  // namespace graspd

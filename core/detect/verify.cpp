@@ -1,0 +1,179 @@
+#include "core/detect/verify.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace graspd {
+
+namespace {
+
+/// What the scene says at one cell of the rendered model.
+enum class CellVerdict : std::uint8_t { unmeasured, confirmed, behind, occluded, contradicted };
+
+constexpr float same_normal = 0.6F;
+
+/// The normal of the rendered surface from its neighbours, or zero at its rim.
+Vector3 rendered_normal(const RenderedModel& model, int u, int v) {
+  const Camera& camera = model.camera;
+  const auto depth = [&](int x, int y) { return camera.contains(x, y) ? model.front[camera.index(x, y)] : 0.0F; };
+  const float here = depth(u, v);
+  const float step = 8.0F * here / camera.fx;
+  const auto along = [&](int du, int dv) -> Vector3 {
+    const float before = depth(u - du, v - dv);
+    const float after = depth(u + du, v + dv);
+    const bool before_fits = before > 0.0F && std::abs(before - here) < step;
+    const bool after_fits = after > 0.0F && std::abs(after - here) < step;
+    if (!before_fits && !after_fits) return Vector3::Zero();
+    const auto point = [&](int x, int y, float z) {
+      return camera.point(static_cast<float>(x), static_cast<float>(y), z);
+    };
+    const Vector3 from = before_fits ? point(u - du, v - dv, before) : point(u, v, here);
+    const Vector3 to = after_fits ? point(u + du, v + dv, after) : point(u, v, here);
+    return to - from;
+  };
+  const Vector3 normal = along(0, 1).cross(along(1, 0));
+  const float length = normal.norm();
+  return length > 0.0F ? Vector3(normal / length) : Vector3::Zero();
+}
+
+struct Verdict {
+  CellVerdict verdict = CellVerdict::unmeasured;
+  float distance = 0;  ///< Between the surfaces, along the model's normal (metres).
+};
+
+Verdict judge(const MapCell& cell, const RenderedModel& model, int u, int v, float tolerance) {
+  if (!cell.measured()) return {};
+  const float depth = model.front[model.camera.index(u, v)];
+  const Vector3 normal = rendered_normal(model, u, v);
+  const Vector3 ray = model.camera.point(static_cast<float>(u), static_cast<float>(v), 1.0F);
+  // Along a grazing ray a small gap between surfaces looks long; below 0.25 it is noise of the rim.
+  const float slope = normal.isZero() ? 1.0F : std::max(0.25F, std::abs(normal.dot(ray)) / ray.norm());
+  const float gap = cell.point.z() - depth;
+  const float distance = std::abs(gap) * slope;
+  if (distance > tolerance) return {gap > 0.0F ? CellVerdict::behind : CellVerdict::occluded, distance};
+  if (cell.foreground == 0) return {CellVerdict::contradicted, distance};
+  const bool agrees = normal.isZero() || !cell.has_normal() || normal.dot(cell.normal) > same_normal;
+  return {agrees ? CellVerdict::confirmed : CellVerdict::contradicted, distance};
+}
+
+/// Votes of the outline on whether the scene ends where the model ends.
+struct OutlineCount {
+  int consistent = 0;
+  int inconsistent = 0;
+};
+
+/// Looks two cells beyond the rim at (u, v) in direction (du, dv): a surface that goes on there, as the
+/// extension of the one inside, contradicts the rim.
+void judge_rim(const SceneMap& map, const RenderedModel& model, int u, int v, int du, int dv, float tolerance,
+               OutlineCount& count) {
+  const int map_u = model.rectangle.left + u;
+  const int map_v = model.rectangle.top + v;
+  const int beyond_u = map_u + 2 * du;
+  const int beyond_v = map_v + 2 * dv;
+  if (!map.camera.contains(beyond_u, beyond_v)) return;
+  const MapCell& inside = map.at(map_u, map_v);
+  const MapCell& beyond = map.at(beyond_u, beyond_v);
+  if (!beyond.measured()) return;
+  const float gap = beyond.point.z() - model.front[model.camera.index(u, v)];
+  if (gap < -4.0F * tolerance) return;
+  if (beyond.foreground == 0 || !inside.has_normal() || !beyond.has_normal()) {
+    ++count.consistent;
+    return;
+  }
+  const float off_plane = std::abs(inside.normal.dot(beyond.point - inside.point));
+  const bool goes_on = off_plane < tolerance && inside.normal.dot(beyond.normal) > 0.9F;
+  ++(goes_on ? count.inconsistent : count.consistent);
+}
+
+}  // namespace
+
+RenderedModel render_model(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part,
+                           std::span<float> front, std::span<float> back) {
+  RenderedModel model;
+  model.rectangle = projected_bounds(bank.mesh, camera_from_part, map.camera);
+  model.camera = cropped(map.camera, model.rectangle);
+  const std::size_t cells = model.rectangle.empty() ? 0 : model.camera.pixel_count();
+  if (cells == 0 || cells > front.size()) {
+    model.rectangle = {};
+    return model;
+  }
+  model.front = front.first(cells);
+  render_depth(bank.mesh, camera_from_part, model.camera, model.front);
+  if (back.size() >= cells) {
+    model.back = back.first(cells);
+    render_depth(bank.mesh, camera_from_part, model.camera, model.back, RenderedSurface::farthest);
+  }
+  return model;
+}
+
+Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedModel& model,
+                         const VerifyParameters& parameters, std::span<const std::uint16_t> claimed) {
+  Evidence evidence;
+  const float tolerance = parameters.tolerance * bank.part->sampling;
+  std::array<float, 5> counts{};
+  float rendered = 0;
+  float below = 0;
+  float squares = 0;
+  OutlineCount outline;
+  for (int v = 0; v < model.rectangle.height; ++v) {
+    for (int u = 0; u < model.rectangle.width; ++u) {
+      const std::size_t index = model.camera.index(u, v);
+      const float front = model.front[index];
+      if (front == 0.0F) continue;
+      rendered += 1.0F;
+      const int map_u = model.rectangle.left + u;
+      const int map_v = model.rectangle.top + v;
+      const MapCell& cell = map.at(map_u, map_v);
+      if (cell.background > 0.0F) {
+        const float limit = cell.background + tolerance;
+        below += front > limit ? 0.5F : 0.0F;
+        below += !model.back.empty() && model.back[index] > limit ? 0.5F : 0.0F;
+      }
+      if (!claimed.empty() && claimed[map.camera.index(map_u, map_v)] != 0) {
+        counts[static_cast<std::size_t>(CellVerdict::occluded)] += 1.0F;
+        continue;
+      }
+      const Verdict verdict = judge(cell, model, u, v, tolerance);
+      counts[static_cast<std::size_t>(verdict.verdict)] += 1.0F;
+      if (verdict.verdict != CellVerdict::confirmed) continue;
+      squares += verdict.distance * verdict.distance;
+      constexpr std::array<std::array<int, 2>, 4> directions{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+      for (const auto& [du, dv] : directions) {
+        const bool rim =
+            !model.camera.contains(u + du, v + dv) || model.front[model.camera.index(u + du, v + dv)] == 0.0F;
+        if (rim) judge_rim(map, model, u, v, du, dv, tolerance, outline);
+      }
+    }
+  }
+  if (rendered == 0.0F) return evidence;
+  const auto count = [&](CellVerdict verdict) { return counts[static_cast<std::size_t>(verdict)]; };
+  const float confirmed = count(CellVerdict::confirmed);
+  const float against = count(CellVerdict::behind) + count(CellVerdict::contradicted);
+  const float measured = confirmed + against + count(CellVerdict::occluded);
+  evidence.visible = confirmed / rendered;
+  evidence.overlap = measured > 0.0F ? confirmed / measured : 0.0F;
+  evidence.purity = confirmed + against > 0.0F ? confirmed / (confirmed + against) : 0.0F;
+  evidence.boundary = count(CellVerdict::behind) / rendered;
+  evidence.below = below / rendered;
+  evidence.residual = confirmed > 0.0F ? std::sqrt(squares / confirmed) : 0.0F;
+  evidence.confirmed = confirmed;
+  const int decided = outline.consistent + outline.inconsistent;
+  evidence.edge = decided > 0 ? static_cast<float>(outline.consistent) / static_cast<float>(decided) : 1.0F;
+  return evidence;
+}
+
+float score_of(const Evidence& evidence) {
+  const float seen = std::min(1.0F, evidence.visible / 0.3F);
+  return evidence.purity * std::sqrt(evidence.edge) * (0.5F + 0.5F * seen);
+}
+
+Rejection failed_test(const Evidence& evidence, const VerifyThresholds& thresholds) {
+  if (evidence.overlap < thresholds.minimum_overlap) return Rejection::overlap;
+  if (evidence.boundary > thresholds.maximum_boundary) return Rejection::boundary;
+  if (evidence.edge < thresholds.minimum_edge) return Rejection::edge;
+  if (evidence.below > thresholds.maximum_below) return Rejection::below_plane;
+  return Rejection::none;
+}
+
+}  // namespace graspd

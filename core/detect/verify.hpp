@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+
+#include "core/bank/bank.hpp"
+#include "core/detect/background.hpp"
+#include "core/detect/detections.hpp"
+#include "core/detect/parameters.hpp"
+#include "core/detect/scene_map.hpp"
+#include "core/geometry/depth_render.hpp"
+
+namespace graspd {
+
+/// The posed model as the map's camera would see it.
+struct RenderedModel {
+  ImageRectangle rectangle;  ///< In cells of the map.
+  Camera camera;             ///< Of the rectangle.
+  std::span<float> front;    ///< Depth of the surface towards the sensor (metres), 0: no model.
+  std::span<float> back;     ///< Depth of the last surface; empty when it was not asked for.
+};
+
+/// Renders the posed model into `storage`, the front and, when it holds both, the back. An empty
+/// rectangle when the model falls outside the image or the storage is too small for it.
+[[nodiscard]] RenderedModel render_model(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part,
+                                         std::span<float> front, std::span<float> back);
+
+/// Holds the rendered model against the measured scene (paper 2.4.2). Cells that the sensor did not
+/// see are neutral; cells where the scene lies behind the model count against it. `claimed` marks
+/// cells that better instances explain, by a number other than 0; may be empty.
+[[nodiscard]] Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedModel& model,
+                                       const VerifyParameters& parameters, std::span<const std::uint16_t> claimed);
+
+/// The confidence in a pose from its evidence, in [0, 1].
+[[nodiscard]] float score_of(const Evidence& evidence);
+
+/// The first of the four tests of paper 2.4.2 that the evidence fails, or none.
+[[nodiscard]] Rejection failed_test(const Evidence& evidence, const VerifyThresholds& thresholds);
+
+}  // namespace graspd
