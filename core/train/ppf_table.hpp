@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/bank/ppf.hpp"
+#include "core/train/generalisation.hpp"
+
+namespace graspd {
+
+/// The table in compressed rows, as Bank holds it.
+struct PpfTable {
+  std::vector<std::uint32_t> cell_offsets;
+  std::vector<PpfEntry> entries;
+};
+
+/// Which pairs enter the table.
+struct PairSelection {
+  float minimum_distance = 0;  ///< Metres: nearer points say little more than their normals.
+};
+
+/// Enters every pair (reference, partner) of every view that one of the view's directions sees
+/// together. References are numbered view after view.
+[[nodiscard]] PpfTable make_ppf_table(std::span<const GeneralisedView> views, const CandidateViews& candidates,
+                                      const PpfGrid& grid, const PairSelection& selection);
+
+}  // namespace graspd
