@@ -20,7 +20,8 @@ namespace graspd {
 namespace {
 
 constexpr int visibility_directions = 642;
-constexpr std::size_t render_triangles = 3000;
+constexpr float render_error = 0.001F;      ///< Of the bank's mesh, as a share of the diameter.
+constexpr float occlusion_error = 0.0005F;  ///< Of the mesh that hides points while the bank is made.
 constexpr float crease_angle = std::numbers::pi_v<float> / 6.0F;
 
 /// The arrays of a bank while it is being made.
@@ -58,12 +59,12 @@ void describe_part(const PartDescription& part, const PartMesh& mesh, const Bank
 
 /// The dense surface: evenly spread points that can be seen from anywhere at all, their visibility,
 /// and the visible edges.
-void add_surface(const PartMesh& mesh, const ViewingConditions& conditions, const BankBuildParameters& parameters,
-                 BankStorage& storage) {
+void add_surface(const PartMesh& mesh, const MeshView& occluder, const ViewingConditions& conditions,
+                 const BankBuildParameters& parameters, BankStorage& storage) {
   const auto wanted = static_cast<std::size_t>(parameters.surface_points);
   const std::vector<OrientedPoint> pool = sample_surface(mesh.mesh, wanted * 8);
   storage.directions = view_sphere(visibility_directions);
-  const Visibility coarse = find_visibility(mesh.mesh.view(), pool, view_sphere(92), conditions);
+  const Visibility coarse = find_visibility(occluder, pool, view_sphere(92), conditions);
   std::vector<OrientedPoint> reachable;
   for (std::size_t i = 0; i < pool.size(); ++i) {
     bool seen = false;
@@ -75,7 +76,7 @@ void add_surface(const PartMesh& mesh, const ViewingConditions& conditions, cons
     points.push_back(reachable[i]);
     storage.surface.push_back({reachable[i].position, reachable[i].normal});
   }
-  storage.visibility = find_visibility(mesh.mesh.view(), points, storage.directions, conditions).seen;
+  storage.visibility = find_visibility(occluder, points, storage.directions, conditions).seen;
 
   const float near_surface = 0.02F * mesh.diameter;
   for (const EdgePoint& edge : sample_edges(mesh.mesh, crease_angle, 0.01F * mesh.diameter)) {
@@ -142,16 +143,17 @@ Result<std::vector<std::byte>> build_bank(const PartDescription& part, const Ban
   describe_part(part, mesh, parameters, storage);
   const ViewingConditions conditions{storage.part.centre, mesh.diameter, parameters.sensor_distance,
                                      parameters.maximum_incidence};
-  add_surface(mesh, conditions, parameters, storage);
+  const Mesh occluder = simplify_mesh(mesh.mesh, occlusion_error * mesh.diameter);
+  add_surface(mesh, occluder.view(), conditions, parameters, storage);
   progress(0.5F);
 
   const float voxel = storage.part.sampling;
   constexpr float samples_per_voxel = 24.0F;
   const auto sample_count =
-      static_cast<std::size_t>(std::clamp(samples_per_voxel * mesh.area / (voxel * voxel), 2000.0F, 200000.0F));
+      static_cast<std::size_t>(std::clamp(samples_per_voxel * mesh.area / (voxel * voxel), 2000.0F, 60000.0F));
   const std::vector<OrientedPoint> samples = sample_surface(mesh.mesh, sample_count);
   const std::vector<Vector3> directions = view_sphere(parameters.candidate_views);
-  const Visibility visibility = find_visibility(mesh.mesh.view(), samples, directions, conditions);
+  const Visibility visibility = find_visibility(occluder.view(), samples, directions, conditions);
   const CandidateViews candidates{directions, samples, visibility};
   progress(0.7F);
 
@@ -170,7 +172,7 @@ Result<std::vector<std::byte>> build_bank(const PartDescription& part, const Ban
   add_views(views, refined, candidates, storage);
   progress(0.9F);
 
-  storage.mesh = simplify_mesh(mesh.mesh, render_triangles, 0.003F * mesh.diameter);
+  storage.mesh = simplify_mesh(mesh.mesh, render_error * mesh.diameter);
   std::vector<std::byte> file = write_bank(bank_over(storage, part));
   progress(1.0F);
   return file;

@@ -1,6 +1,7 @@
 #include "core/train/generalisation.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -15,11 +16,14 @@ constexpr std::size_t minimum_members = 3;
 
 /// The samples seen from any of the directions.
 std::vector<std::size_t> united_samples(const CandidateViews& candidates, std::span<const std::size_t> directions) {
+  std::vector<std::uint64_t> seen(candidates.visibility.seen.words_per_row, 0);
+  for (const std::size_t d : directions) {
+    const auto row = candidates.visibility.seen.row(d);
+    std::transform(seen.begin(), seen.end(), row.begin(), seen.begin(), std::bit_or<>());
+  }
   std::vector<std::size_t> samples;
   for (std::size_t i = 0; i < candidates.samples.size(); ++i) {
-    const bool seen = std::any_of(directions.begin(), directions.end(),
-                                  [&](std::size_t d) { return candidates.visibility.seen.at(d, i); });
-    if (seen) samples.push_back(i);
+    if ((seen[i / 64] >> (i % 64) & 1U) != 0) samples.push_back(i);
   }
   return samples;
 }

@@ -6,8 +6,7 @@
 
 namespace graspd {
 
-Mesh simplify_mesh(const Mesh& mesh, std::size_t target_triangles, float error) {
-  if (mesh.triangles.size() <= target_triangles) return mesh;
+Mesh simplify_mesh(const Mesh& mesh, float error) {
   static_assert(sizeof(Vector3) == 3 * sizeof(float));
   const float* positions = mesh.vertices.front().data();
   const float scale = meshopt_simplifyScale(positions, mesh.vertices.size(), sizeof(Vector3));
@@ -16,7 +15,7 @@ Mesh simplify_mesh(const Mesh& mesh, std::size_t target_triangles, float error) 
   for (const Triangle& t : mesh.triangles) indices.insert(indices.end(), t.begin(), t.end());
   std::vector<unsigned int> simple(indices.size());
   simple.resize(meshopt_simplify(simple.data(), indices.data(), indices.size(), positions, mesh.vertices.size(),
-                                 sizeof(Vector3), target_triangles * 3, error / scale));
+                                 sizeof(Vector3), 0, error / scale));
 
   Mesh result;
   constexpr std::uint32_t unused = 0xFFFFFFFFU;

@@ -4,8 +4,9 @@
 
 namespace graspd {
 
-/// A mesh of few triangles within `error` (metres) of `mesh`: down to `target_triangles`, or as far
-/// as the error allows. Vertices must be merged.
-[[nodiscard]] Mesh simplify_mesh(const Mesh& mesh, std::size_t target_triangles, float error);
+/// A mesh of as few triangles as `error` allows: the root mean square distance (metres) by which a
+/// collapsed edge may leave the faces around it. The surface stays within a few times that. Vertices
+/// of `mesh` must be merged.
+[[nodiscard]] Mesh simplify_mesh(const Mesh& mesh, float error);
 
 }  // namespace graspd

@@ -66,7 +66,7 @@ Visibility find_visibility(const MeshView& mesh, std::span<const OrientedPoint> 
       const float nearest = camera.contains(u, v) ? depth[camera.index(u, v)] : 0.0F;
       // The pixel's centre is up to 0.7 pixels away on the same slanted surface.
       const float slope = std::sqrt(1.0F - cosine * cosine) / cosine;
-      const float tolerance = 0.002F * conditions.diameter + 0.75F * range * pixel_angle * slope;
+      const float tolerance = 0.003F * conditions.diameter + 0.75F * range * pixel_angle * slope;
       if (nearest == 0.0F || point.position.z() <= nearest + tolerance) set_bit(visibility.seen, d, i);
     }
   }
