@@ -28,7 +28,7 @@ class FrameSource {
 
   /// The bin without parts that belongs to the last frame grabbed, in memory of the source; empty `depth`
   /// when there is none.
-  [[nodiscard]] virtual DepthFrame empty_bin() const = 0;
+  [[nodiscard]] virtual DepthFrame empty_bin() = 0;
 
   /// A name of the last frame grabbed, for the journal.
   [[nodiscard]] virtual std::string_view frame_name() const = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -28,7 +29,7 @@ class RecordedSource final : public FrameSource {
 
   [[nodiscard]] Status grab(std::span<float> storage, DepthFrame& frame) override;
   [[nodiscard]] FrameLimits limits() const override { return limits_; }
-  [[nodiscard]] DepthFrame empty_bin() const override;
+  [[nodiscard]] DepthFrame empty_bin() override;
   [[nodiscard]] std::string_view frame_name() const override;
 
   [[nodiscard]] std::size_t frame_count() const { return frames_.size(); }

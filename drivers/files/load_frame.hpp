@@ -18,9 +18,13 @@ struct FrameFileOptions {
   ProjectionLimits limits;            ///< For clouds.
 };
 
+/// True for names that end like a frame's: .png, .tif, .tiff, .ply, .pcd.
+[[nodiscard]] bool is_frame_file(const std::filesystem::path& path);
+
 /// Reads one frame: a depth image (PNG, TIFF) or a point cloud (PLY, PCD), recognised by its extension.
 /// A depth image takes its intrinsics from the camera file of `options`, else from the BOP scene that it
-/// lies in (scene_camera.json in the folder above), which also gives the scene's empty frame.
+/// lies in (scene_camera.json in the folder above), which also gives the scene's empty frame, else from a
+/// camera.json beside it or in the folder above.
 /// Fails with bad_file for what cannot be read or has no intrinsics, with bad_frame for a wrong size or
 /// a frame that is all invalid.
 [[nodiscard]] Result<LoadedFrame> load_frame(const std::filesystem::path& path, const FrameFileOptions& options);
