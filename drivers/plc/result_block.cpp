@@ -1,0 +1,202 @@
+#include "drivers/plc/result_block.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace graspd {
+namespace {
+
+constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
+constexpr double micrometres_per_metre = 1e6;
+
+/// A pose as the seven numbers of the registers: position, then orientation.
+using PoseValues = std::array<double, 7>;
+
+struct PoseScale {
+  double length;
+  double angle;
+};
+
+[[nodiscard]] PoseScale float_scale(const BlockFormat& format) {
+  const bool is_angle = format.convention != PoseConvention::quaternion;
+  return {format.length == LengthUnit::millimetre ? 1e3 : 1.0,
+          is_angle && format.angle == AngleUnit::degree ? degrees_per_radian : 1.0};
+}
+
+[[nodiscard]] PoseScale integer_scale(const BlockFormat& format) {
+  const bool is_angle = format.convention != PoseConvention::quaternion;
+  return {micrometres_per_metre, is_angle && format.angle == AngleUnit::degree ? 1e3 * degrees_per_radian : 1e6};
+}
+
+[[nodiscard]] PoseValues pose_values(const RigidTransform& pose, PoseConvention convention) {
+  const std::array<double, 4> orientation = orientation_values(pose.rotation, convention);
+  const Eigen::Vector3d position = pose.translation.cast<double>();
+  return {position.x(), position.y(), position.z(), orientation[0], orientation[1], orientation[2], orientation[3]};
+}
+
+[[nodiscard]] std::uint16_t rounded_word(double value) {
+  if (!(value > 0)) return 0;
+  return static_cast<std::uint16_t>(std::lround(std::min(value, 65535.0)));
+}
+
+[[nodiscard]] std::int32_t rounded_int(double value) {
+  if (std::isnan(value)) return 0;
+  constexpr double limit = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::llround(std::clamp(value, -limit, limit)));
+}
+
+void put_pose(std::span<std::uint16_t> floats, std::span<std::uint16_t> integers, const RigidTransform& pose,
+              const BlockFormat& format) {
+  const PoseValues values = pose_values(pose, format.convention);
+  const PoseScale as_float = float_scale(format);
+  const PoseScale as_integer = integer_scale(format);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool is_position = i < 3;
+    put_float(floats.subspan(2 * i), static_cast<float>(values[i] * (is_position ? as_float.length : as_float.angle)),
+              format.word_order);
+    put_int32(integers.subspan(2 * i), rounded_int(values[i] * (is_position ? as_integer.length : as_integer.angle)),
+              format.word_order);
+  }
+}
+
+[[nodiscard]] RigidTransform get_pose(std::span<const std::uint16_t> floats, const BlockFormat& format) {
+  const PoseScale scale = float_scale(format);
+  PoseValues values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] =
+        static_cast<double>(get_float(floats.subspan(2 * i), format.word_order)) / (i < 3 ? scale.length : scale.angle);
+  }
+  RigidTransform pose;
+  pose.translation = Eigen::Vector3d(values[0], values[1], values[2]).cast<float>();
+  pose.rotation = rotation_from_values({values[3], values[4], values[5], values[6]}, format.convention);
+  return pose;
+}
+
+[[nodiscard]] bool is_finite(const RigidTransform& pose) {
+  return pose.rotation.allFinite() && pose.translation.allFinite();
+}
+
+void put_pick(std::span<std::uint16_t> words, const ResultBlock& result, const BlockFormat& format) {
+  const double opening = static_cast<double>(result.opening);
+  put_float(words.subspan(block::opening), static_cast<float>(opening * float_scale(format).length), format.word_order);
+  put_int32(words.subspan(block::opening_scaled), rounded_int(opening * micrometres_per_metre), format.word_order);
+  put_pose(words.subspan(block::pick_pose), words.subspan(block::pick_pose_scaled), result.pick, format);
+  put_pose(words.subspan(block::approach_pose), words.subspan(block::approach_pose_scaled), result.approach, format);
+  put_pose(words.subspan(block::part_pose), words.subspan(block::part_pose_scaled), result.part_pose, format);
+}
+
+[[nodiscard]] Status check(std::span<const std::uint16_t> words, WordOrder order) {
+  if (words.size() < block::count) {
+    return Status::format(StatusCode::bad_file, "result block: %zu registers read, %u are needed", words.size(),
+                          unsigned{block::count});
+  }
+  if (words[block::map_version] != register_map_version) {
+    return Status::format(StatusCode::bad_file, "result block: map version %u, expected %u",
+                          unsigned{words[block::map_version]}, unsigned{register_map_version});
+  }
+  if (words[block::sequence_first] != words[block::sequence_last]) {
+    return Status::format(StatusCode::bad_file, "result block: torn: sequence %u at the start, %u at the end",
+                          unsigned{words[block::sequence_first]}, unsigned{words[block::sequence_last]});
+  }
+  if (block_checksum(words.first(block::checksum)) != words[block::checksum]) {
+    return {StatusCode::bad_file, "result block: the checksum does not fit the contents"};
+  }
+  if (get_float(words.subspan(block::test_float), order) != block::test_float_value ||
+      get_int32(words.subspan(block::test_int), order) != block::test_int_value) {
+    return Status::format(StatusCode::bad_file, "result block: the test pattern does not read as 123.456 in order %s",
+                          word_order_name(order).data());
+  }
+  const std::uint16_t convention = words[block::pose_convention];
+  if (convention < 1 || convention > pose_convention_count) {
+    return Status::format(StatusCode::bad_file, "result block: unknown pose convention %u", unsigned{convention});
+  }
+  return {};
+}
+
+}  // namespace
+
+bool has_pick(const ResultBlock& result) {
+  return result.verified && result.code == ResultCode::ok && is_finite(result.pick) && is_finite(result.approach) &&
+         is_finite(result.part_pose) && std::isfinite(result.opening);
+}
+
+std::uint16_t block_checksum(std::span<const std::uint16_t> words) {
+  unsigned crc = 0xFFFF;
+  const auto add = [&crc](unsigned byte) {
+    crc ^= byte;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? (crc >> 1U) ^ 0xA001U : crc >> 1U;
+  };
+  for (const std::uint16_t word : words) {
+    add(static_cast<unsigned>(word) >> 8U);
+    add(static_cast<unsigned>(word) & 0xFFU);
+  }
+  return static_cast<std::uint16_t>(crc);
+}
+
+void encode(const ResultBlock& result, const BlockFormat& format, std::span<std::uint16_t> words) {
+  std::ranges::fill(words.first(block::count), std::uint16_t{0});
+  words[block::map_version] = register_map_version;
+  words[block::sequence_first] = result.sequence;
+  words[block::request_id] = result.request_id;
+  words[block::result_code] = static_cast<std::uint16_t>(result.code);
+  words[block::reason] = static_cast<std::uint16_t>(result.reason);
+  words[block::flags] = result.flags;
+  words[block::part] = result.part;
+  words[block::view] = result.view;
+  words[block::grasp] = result.grasp;
+  words[block::score] = rounded_word(1e4 * static_cast<double>(result.score));
+  words[block::instances_found] = result.instances_found;
+  words[block::pickable] = result.pickable;
+  words[block::remaining] = result.remaining;
+  words[block::result_index] = result.result_index;
+  words[block::pose_convention] = static_cast<std::uint16_t>(format.convention);
+  words[block::pose_frame] = static_cast<std::uint16_t>(result.frame);
+  words[block::frame_age] = rounded_word(1e3 * static_cast<double>(result.frame_age));
+  for (std::size_t i = 0; i < block_stage_count; ++i) {
+    words[block::time_total + i] = rounded_word(1e3 * static_cast<double>(result.stage_time[i]));
+  }
+  words[block::test_word] = block::test_word_value;
+  put_float(words.subspan(block::test_float), block::test_float_value, format.word_order);
+  put_int32(words.subspan(block::test_int), block::test_int_value, format.word_order);
+  if (has_pick(result)) put_pick(words, result, format);
+  words[block::checksum] = block_checksum(words.first(block::checksum));
+  words[block::sequence_last] = result.sequence;
+}
+
+Result<ResultBlock> decode(std::span<const std::uint16_t> words, const BlockFormat& format) {
+  if (Status status = check(words, format.word_order); !status.ok()) return status;
+  BlockFormat own = format;
+  own.convention = static_cast<PoseConvention>(words[block::pose_convention]);
+  ResultBlock result;
+  result.sequence = words[block::sequence_first];
+  result.request_id = words[block::request_id];
+  result.code = static_cast<ResultCode>(words[block::result_code]);
+  result.reason = static_cast<ResultReason>(words[block::reason]);
+  result.flags = words[block::flags];
+  result.part = words[block::part];
+  result.view = words[block::view];
+  result.grasp = words[block::grasp];
+  result.score = static_cast<float>(words[block::score]) / 1e4F;
+  result.instances_found = words[block::instances_found];
+  result.pickable = words[block::pickable];
+  result.remaining = words[block::remaining];
+  result.result_index = words[block::result_index];
+  result.frame = static_cast<PoseFrame>(words[block::pose_frame]);
+  result.frame_age = static_cast<float>(words[block::frame_age]) / 1e3F;
+  for (std::size_t i = 0; i < block_stage_count; ++i) {
+    result.stage_time[i] = static_cast<float>(words[block::time_total + i]) / 1e3F;
+  }
+  result.verified = result.code == ResultCode::ok;
+  if (result.verified) {
+    result.opening = static_cast<float>(static_cast<double>(get_float(words.subspan(block::opening), own.word_order)) /
+                                        float_scale(own).length);
+    result.pick = get_pose(words.subspan(block::pick_pose), own);
+    result.approach = get_pose(words.subspan(block::approach_pose), own);
+    result.part_pose = get_pose(words.subspan(block::part_pose), own);
+  }
+  return result;
+}
+
+}  // namespace graspd

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "core/detect/detections.hpp"
+#include "core/grasp/pick.hpp"
+#include "core/status.hpp"
+
+namespace graspd {
+
+/// What became of a request, as the PLC reads it. Below 20 the number is that of the StatusCode and
+/// something is at fault; from 20 on the answer is sound, but there is nothing to pick; from 30 on a
+/// request was not accepted, or was given up. configs/register-map.md names cause and remedy of each.
+enum class ResultCode : std::uint16_t {
+  ok = 0,
+  internal = 1,
+  bad_configuration = 3,
+  bad_file = 4,
+  bad_model = 5,
+  memory_limit = 7,
+  bad_request = 9,
+  camera_lost = 10,
+  stale_frame = 11,
+  bad_frame = 12,
+  deadline = 13,
+  empty_bin = 20,     ///< Nothing lies in the bin.
+  no_match = 21,      ///< Something lies there, but no instance of the part was recognised.
+  not_pickable = 22,  ///< Instances were found; none can be gripped.
+  nothing_left = 23,  ///< `next`, but the last capture holds no further pick.
+  busy = 30,
+  not_acknowledged = 31,
+  plc_silent = 32,
+  given_up = 33,   ///< The request was reset before it had an answer.
+  no_answer = 34,  ///< Nothing was asked for since the start.
+};
+
+struct ResultCodeEntry {
+  ResultCode code;
+  std::string_view name;
+};
+inline constexpr std::array<ResultCodeEntry, 20> result_code_table{{
+    {ResultCode::ok, "ok"},
+    {ResultCode::internal, "internal"},
+    {ResultCode::bad_configuration, "bad_configuration"},
+    {ResultCode::bad_file, "bad_file"},
+    {ResultCode::bad_model, "bad_model"},
+    {ResultCode::memory_limit, "memory_limit"},
+    {ResultCode::bad_request, "bad_request"},
+    {ResultCode::camera_lost, "camera_lost"},
+    {ResultCode::stale_frame, "stale_frame"},
+    {ResultCode::bad_frame, "bad_frame"},
+    {ResultCode::deadline, "deadline"},
+    {ResultCode::empty_bin, "empty_bin"},
+    {ResultCode::no_match, "no_match"},
+    {ResultCode::not_pickable, "not_pickable"},
+    {ResultCode::nothing_left, "nothing_left"},
+    {ResultCode::busy, "busy"},
+    {ResultCode::not_acknowledged, "not_acknowledged"},
+    {ResultCode::plc_silent, "plc_silent"},
+    {ResultCode::given_up, "given_up"},
+    {ResultCode::no_answer, "no_answer"},
+}};
+
+/// A name for logs and tables; "unknown" for a number that is not in the table.
+[[nodiscard]] std::string_view result_code_name(ResultCode code);
+/// True for the codes that set the discrete input `error`: graspd or the camera is at fault.
+[[nodiscard]] constexpr bool is_fault(ResultCode code) {
+  return code != ResultCode::ok && static_cast<std::uint16_t>(code) < 20;
+}
+/// The code under which a failure is told to the PLC.
+[[nodiscard]] ResultCode result_code(StatusCode code);
+
+/// The main reason behind no_match (1 to 99: the test that rejected most hypotheses) and
+/// not_pickable (from 100: why most instances could not be gripped).
+enum class ResultReason : std::uint16_t {
+  none = 0,
+  weak = 1,
+  overlap = 2,
+  boundary = 3,
+  edge = 4,
+  below_plane = 5,
+  floating = 6,
+  intersecting = 7,
+  duplicate = 8,
+  score = 9,
+  no_grasp = 101,
+  tilt = 102,
+  reach = 103,
+  collision = 104,
+  opening = 105,
+};
+
+struct ResultReasonEntry {
+  ResultReason reason;
+  std::string_view name;
+};
+inline constexpr std::array<ResultReasonEntry, 15> result_reason_table{{
+    {ResultReason::none, "none"},
+    {ResultReason::weak, "weak"},
+    {ResultReason::overlap, "overlap"},
+    {ResultReason::boundary, "boundary"},
+    {ResultReason::edge, "edge"},
+    {ResultReason::below_plane, "below_plane"},
+    {ResultReason::floating, "floating"},
+    {ResultReason::intersecting, "intersecting"},
+    {ResultReason::duplicate, "duplicate"},
+    {ResultReason::score, "score"},
+    {ResultReason::no_grasp, "no_grasp"},
+    {ResultReason::tilt, "tilt"},
+    {ResultReason::reach, "reach"},
+    {ResultReason::collision, "collision"},
+    {ResultReason::opening, "opening"},
+}};
+
+/// A name for logs and tables; "unknown" for a number that is not in the table.
+[[nodiscard]] std::string_view result_reason_name(ResultReason reason);
+[[nodiscard]] ResultReason result_reason(Rejection rejection);
+[[nodiscard]] ResultReason result_reason(GraspRejection rejection);
+
+}  // namespace graspd
