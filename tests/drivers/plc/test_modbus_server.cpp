@@ -1,0 +1,404 @@
+#include <gtest/gtest.h>
+#include <sys/select.h>
+
+#include <atomic>
+#include <thread>
+
+#include "drivers/system/clock.hpp"
+#include "tests/drivers/plc/loopback.hpp"
+
+namespace graspd {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+const Bytes read_one_input{0, 9, 0, 0, 0, 6, 1, 4, 0, 0, 0, 1};
+
+TEST(ModbusServer, GoesThroughTheHandshake) {
+  const auto server = start_server();
+  Worker worker(*server, pick_for);
+  ModbusClient client = connect_to(*server);
+  for (std::uint16_t id = 100; id < 120; ++id) {
+    const Result<ResultBlock> result = client.request_pick({.request_id = id, .part = 3}, 2000ms);
+    ASSERT_TRUE(result.ok()) << result.status().message();
+    EXPECT_TRUE(result.value().verified);
+    EXPECT_EQ(result.value().request_id, id);
+    EXPECT_EQ(result.value().part, 3);
+    EXPECT_FLOAT_EQ(result.value().pick.translation.x(), static_cast<float>(result.value().sequence) / 1000.0F);
+    const Result<HandshakeOutputs> out = client.read_outputs();
+    ASSERT_TRUE(out.ok());
+    EXPECT_FALSE(out.value().done);
+    EXPECT_FALSE(out.value().result_valid);
+    EXPECT_TRUE(out.value().ready);
+  }
+  EXPECT_EQ(worker.requests.load(), 20);
+}
+
+TEST(ModbusServer, PassesOnWhatThePlcAskedFor) {
+  const auto server = start_server();
+  ModbusClient client = connect_to(*server);
+  ASSERT_TRUE(client.trigger({.request_id = 5, .part = 9, .minimum_score = 7500, .pose_convention = 2}).ok());
+  PlcRequest request;
+  ASSERT_TRUE(server->wait_for_request(request, 2000ms));
+  EXPECT_EQ(request.kind, RequestKind::capture);
+  EXPECT_EQ(request.request_id, 5);
+  EXPECT_EQ(request.part, 9);
+  EXPECT_FLOAT_EQ(request.minimum_score, 0.75F);
+  EXPECT_TRUE(server->is_wanted(request.sequence));
+  EXPECT_LE(request.received_ns, monotonic_ns());
+  // Written after the edge: the request keeps its copy.
+  ASSERT_TRUE(client.write_request({.request_id = 6, .pose_convention = 4}).ok());
+  server->commit(pick_for(request));
+  ASSERT_TRUE(client.wait_done(2000ms).ok());
+  const Result<ResultBlock> result = client.read_block();
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(result.value().request_id, 5);
+}
+
+TEST(ModbusServer, ShowsBusyThenCaptureDoneThenDone) {
+  const auto server = start_server();
+  server->set_camera_ok(true);
+  server->set_model_loaded(true);
+  ModbusClient client = connect_to(*server);
+  ASSERT_TRUE(client.write_coil(coil::trigger, true).ok());
+  EXPECT_TRUE(client.read_outputs().value().busy);
+  EXPECT_FALSE(client.read_outputs().value().capture_done);
+  PlcRequest request;
+  ASSERT_TRUE(server->wait_for_request(request, 2000ms));
+  server->capture_done(request.sequence);
+  const std::int64_t end = monotonic_ns() + 2'000'000'000;
+  while (!client.read_outputs().value().capture_done && monotonic_ns() < end) std::this_thread::sleep_for(1ms);
+  EXPECT_TRUE(client.read_outputs().value().capture_done);
+  EXPECT_TRUE(client.read_outputs().value().busy);
+
+  ASSERT_TRUE(client.write_coil(coil::trigger, false).ok());
+  ASSERT_TRUE(client.write_coil(coil::trigger, true).ok());
+  EXPECT_EQ(client.read_live(live_register::triggers_refused).value(), 1);
+  EXPECT_EQ(client.read_live(live_register::last_refusal).value(), static_cast<std::uint16_t>(ResultCode::busy));
+  PlcRequest queued;
+  server->commit(pick_for(request));
+  ASSERT_TRUE(client.wait_done(2000ms).ok());
+  EXPECT_FALSE(server->wait_for_request(queued, 50ms)) << "a refused trigger must not be queued";
+  EXPECT_TRUE(client.read_outputs().value().result_valid);
+}
+
+TEST(ModbusServer, ResetGivesARequestUp) {
+  const auto server = start_server();
+  ModbusClient client = connect_to(*server);
+  ASSERT_TRUE(client.pulse(coil::trigger).ok());
+  PlcRequest request;
+  ASSERT_TRUE(server->wait_for_request(request, 2000ms));
+  ASSERT_TRUE(client.pulse(coil::reset).ok());
+  const std::int64_t end = monotonic_ns() + 2'000'000'000;
+  while (server->is_wanted(request.sequence) && monotonic_ns() < end) std::this_thread::sleep_for(1ms);
+  EXPECT_FALSE(server->is_wanted(request.sequence));
+  server->commit(pick_for(request));
+  while (client.read_outputs().value().busy && monotonic_ns() < end) std::this_thread::sleep_for(1ms);
+  const HandshakeOutputs out = client.read_outputs().value();
+  EXPECT_FALSE(out.busy);
+  EXPECT_FALSE(out.done);
+  EXPECT_FALSE(out.result_valid);
+  EXPECT_EQ(client.read_block().value().sequence, 0) << "the answer must not have been written";
+}
+
+TEST(ModbusServer, NeverShowsAPickThatWasNotVerified) {
+  const auto server = start_server();
+  Worker worker(*server, [](const PlcRequest& request) {
+    ResultBlock result = pick_for(request);
+    result.verified = false;
+    return result;
+  });
+  ModbusClient client = connect_to(*server);
+  const Result<ResultBlock> result = client.request_pick({}, 2000ms);
+  ASSERT_TRUE(result.ok());
+  EXPECT_FALSE(result.value().verified);
+  EXPECT_EQ(result.value().code, ResultCode::internal);
+  EXPECT_TRUE(result.value().pick.translation.isZero());
+}
+
+TEST(ModbusServer, MirrorsInputRegistersAmongTheHoldingRegisters) {
+  const auto server = start_server();
+  Worker worker(*server, pick_for);
+  ModbusClient client = connect_to(*server);
+  ASSERT_TRUE(client.request_pick({.request_id = 77}, 2000ms).ok());
+  RawClient raw(*server);
+  const auto read = [&raw](std::uint8_t function, unsigned address) {
+    raw.send_bytes({0, 1, 0, 0, 0, 6, 1, function, static_cast<std::uint8_t>(address >> 8U),
+                    static_cast<std::uint8_t>(address & 0xFFU), 0, block::count});
+    return raw.receive_bytes();
+  };
+  const Bytes input = read(4, 0);
+  const Bytes holding = read(3, holding_mirror);
+  ASSERT_EQ(input.size(), 9U + 2U * block::count);
+  ASSERT_EQ(holding.size(), input.size());
+  EXPECT_TRUE(std::equal(input.begin() + 8, input.end(), holding.begin() + 8));
+}
+
+TEST(ModbusServer, HalfSentRequestBlocksNobody) {
+  const auto server = start_server();
+  Worker worker(*server, pick_for);
+  ModbusClient client = connect_to(*server);
+  std::vector<std::unique_ptr<RawClient>> stuck;
+  for (std::size_t cut = 1; cut < 7; ++cut) {
+    stuck.push_back(std::make_unique<RawClient>(*server));
+    stuck.back()->send_bytes(Bytes(read_one_input.begin(), read_one_input.begin() + static_cast<std::ptrdiff_t>(cut)));
+  }
+  const std::int64_t before = monotonic_ns();
+  for (int i = 0; i < 200; ++i) ASSERT_TRUE(client.read_block().ok());
+  ASSERT_TRUE(client.request_pick({}, 2000ms).ok());
+  EXPECT_LT(monotonic_ns() - before, 1'500'000'000) << "201 answers in less than one half-sent request may last";
+  // The rest arrives late: it is a request all the same.
+  stuck.back()->send_bytes(Bytes(read_one_input.begin() + 6, read_one_input.end()));
+  EXPECT_EQ(stuck.back()->receive_bytes(), (Bytes{0, 9, 0, 0, 0, 5, 1, 4, 2, 0, 1}));
+}
+
+TEST(ModbusServer, RefusalBlocksNobody) {
+  const auto server = start_server();
+  ModbusClient client = connect_to(*server);
+  RawClient raw(*server);
+  const std::int64_t before = monotonic_ns();
+  for (int i = 0; i < 20; ++i) {
+    raw.send_bytes({0, 1, 0, 0, 0, 6, 1, 4, 0, 0, 0, 0});  // No registers at all: libmodbus itself would sleep.
+    raw.send_bytes({0, 2, 0, 0, 0, 2, 1, 0x2B});
+    ASSERT_TRUE(client.read_block().ok());
+  }
+  EXPECT_LT(monotonic_ns() - before, 1'000'000'000);
+}
+
+TEST(ModbusServer, ClosesAClientThatLeavesARequestUnfinished) {
+  const auto server = start_server();
+  RawClient raw(*server);
+  raw.send_bytes({0, 1, 0, 0, 0});
+  EXPECT_TRUE(raw.is_closed(4000ms));
+}
+
+TEST(ModbusServer, AnswersBadRequestsWithExceptions) {
+  const auto server = start_server();
+  RawClient raw(*server);
+  const auto exception = [&raw](const Bytes& request) {
+    raw.send_bytes(request);
+    const Bytes answer = raw.receive_bytes();
+    return answer.size() == 9 && answer[7] == (request[7] | 0x80U) ? int{answer[8]} : -1;
+  };
+  EXPECT_EQ(exception({0, 1, 0, 0, 0, 6, 1, 4, 0, 120, 0, 1}), 2);
+  EXPECT_EQ(exception({0, 1, 0, 0, 0, 6, 1, 6, 3, 232, 0, 1}), 2);
+  EXPECT_EQ(exception({0, 1, 0, 0, 0, 6, 1, 6, 0, 3, 0, 7}), 3);
+  EXPECT_EQ(exception({0, 1, 0, 0, 0, 6, 1, 5, 0, 4, 255, 0}), 2);
+  EXPECT_EQ(exception({0, 1, 0, 0, 0, 2, 1, 17}), 1);
+  EXPECT_EQ(exception({0, 1, 0, 0, 0, 8, 1, 22, 0, 0, 0, 0, 0, 0}), 1);
+  raw.send_bytes(read_one_input);
+  EXPECT_EQ(raw.receive_bytes().size(), 11U) << "the connection goes on";
+}
+
+TEST(ModbusServer, ClosesAClientThatSendsGarbage) {
+  const auto server = start_server();
+  RawClient garbage(*server);
+  RawClient good(*server);
+  garbage.send_bytes({'G', 'E', 'T', ' ', '/', ' ', 'H', 'T', 'T', 'P', '/', '1', '.', '1', '\r', '\n'});
+  EXPECT_TRUE(garbage.is_closed());
+  good.send_bytes(read_one_input);
+  EXPECT_EQ(good.receive_bytes().size(), 11U);
+}
+
+TEST(ModbusServer, ServesRequestsSentTogether) {
+  const auto server = start_server();
+  RawClient raw(*server);
+  Bytes many;
+  for (int i = 0; i < 100; ++i) many.insert(many.end(), read_one_input.begin(), read_one_input.end());
+  raw.send_bytes(many);
+  std::size_t received = 0;
+  while (received < 1100) {
+    const Bytes answer = raw.receive_bytes();
+    ASSERT_FALSE(answer.empty());
+    received += answer.size();
+  }
+  EXPECT_EQ(received, 1100U);
+}
+
+TEST(ModbusServer, SurvivesClientsThatVanish) {
+  const auto server = start_server();
+  Worker worker(*server, pick_for);
+  for (int i = 0; i < 50; ++i) {
+    const RawClient raw(*server);
+    raw.send_bytes({0, 1, 0, 0, 0, 6, 1, 5, 0, 0, 255, 0});
+    raw.send_bytes(Bytes(read_one_input.begin(), read_one_input.begin() + i % 12));
+  }
+  ModbusClient client = connect_to(*server);
+  ASSERT_TRUE(client.write_coil(coil::trigger, false).ok());
+  ASSERT_TRUE(client.pulse(coil::reset).ok());
+  const std::int64_t end = monotonic_ns() + 2'000'000'000;
+  while (client.read_outputs().value().busy && monotonic_ns() < end) std::this_thread::sleep_for(1ms);
+  const Result<ResultBlock> result = client.request_pick({.request_id = 3}, 2000ms);
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  EXPECT_TRUE(result.value().verified);
+}
+
+TEST(ModbusServer, IdleClientGivesWayWhenTheTableIsFull) {
+  ServerOptions options;
+  options.maximum_clients = 2;
+  options.idle_time = 200ms;
+  const auto server = start_server(options);
+  const RawClient idle(*server);
+  RawClient active(*server);
+  active.send_bytes(read_one_input);
+  ASSERT_EQ(active.receive_bytes().size(), 11U);
+  const RawClient early(*server);
+  EXPECT_TRUE(early.is_closed()) << "nobody has been silent for long enough";
+  std::this_thread::sleep_for(250ms);
+  active.send_bytes(read_one_input);
+  ASSERT_EQ(active.receive_bytes().size(), 11U);
+  const RawClient late(*server);
+  late.send_bytes(read_one_input);
+  EXPECT_EQ(late.receive_bytes().size(), 11U);
+  EXPECT_TRUE(idle.is_closed());
+  active.send_bytes(read_one_input);
+  EXPECT_EQ(active.receive_bytes().size(), 11U);
+}
+
+TEST(ModbusServer, RefusesClientsThatAreNotOnTheList) {
+  ServerOptions options;
+  options.allowed_clients = {"192.0.2.1"};
+  const auto refusing = start_server(options);
+  EXPECT_TRUE(RawClient(*refusing).is_closed());
+  options.allowed_clients = {"192.0.2.1", "127.0.0.0/8"};
+  const auto allowing = start_server(options);
+  RawClient raw(*allowing);
+  raw.send_bytes(read_one_input);
+  EXPECT_EQ(raw.receive_bytes().size(), 11U);
+}
+
+TEST(ModbusServer, SaysWhenThePortIsInUse) {
+  const auto server = start_server();
+  ServerOptions options;
+  options.bind_address = "127.0.0.1";
+  options.port = server->port();
+  const Result<std::unique_ptr<ModbusServer>> second = ModbusServer::start(options);
+  ASSERT_FALSE(second.ok());
+  EXPECT_EQ(second.status().code(), StatusCode::address_in_use);
+  const std::string message(second.status().message());
+  EXPECT_NE(message.find(std::to_string(server->port())), std::string::npos) << message;
+  EXPECT_NE(message.find("127.0.0.1"), std::string::npos) << message;
+}
+
+TEST(ModbusServer, RefusesOptionsThatMakeNoSense) {
+  ServerOptions options;
+  options.bind_address = "localhost";
+  EXPECT_EQ(ModbusServer::start(options).status().code(), StatusCode::bad_configuration);
+  options.bind_address = "127.0.0.1";
+  options.maximum_clients = 0;
+  EXPECT_EQ(ModbusServer::start(options).status().code(), StatusCode::bad_configuration);
+  options.maximum_clients = 65;
+  EXPECT_EQ(ModbusServer::start(options).status().code(), StatusCode::bad_configuration);
+}
+
+TEST(ModbusServer, PortIsFreeAgainAfterStop) {
+  ServerOptions options;
+  options.bind_address = "127.0.0.1";
+  {
+    const auto server = start_server();
+    options.port = server->port();
+    RawClient raw(*server);
+    raw.send_bytes(read_one_input);
+    EXPECT_EQ(raw.receive_bytes().size(), 11U);
+    server->stop();
+    server->stop();
+  }
+  EXPECT_TRUE(ModbusServer::start(options).ok());
+}
+
+TEST(ModbusServer, ListensOnIpVersionSix) {
+  ServerOptions options;
+  options.bind_address = "::1";
+  options.port = 0;
+  const Result<std::unique_ptr<ModbusServer>> server = ModbusServer::start(options);
+  if (!server.ok()) GTEST_SKIP() << "no IPv6 on this machine: " << server.status().message();
+  EXPECT_NE(server.value()->port(), 0);
+}
+
+TEST(ModbusServer, ClearsResultValidWhenThePlcFallsSilent) {
+  ServerOptions options;
+  options.heartbeat_timeout = 150ms;
+  const auto server = start_server(options);
+  Worker worker(*server, pick_for);
+  ModbusClient client = connect_to(*server);
+  ASSERT_TRUE(client.write_heartbeat(1).ok());
+  ASSERT_TRUE(client.trigger({}).ok());
+  ASSERT_TRUE(client.wait_done(2000ms).ok());
+  EXPECT_TRUE(client.read_outputs().value().plc_alive);
+  EXPECT_TRUE(client.read_outputs().value().result_valid);
+  std::this_thread::sleep_for(300ms);
+  EXPECT_FALSE(client.read_outputs().value().result_valid);
+  EXPECT_FALSE(client.read_outputs().value().plc_alive);
+  ASSERT_TRUE(client.write_heartbeat(2).ok());
+  EXPECT_FALSE(client.read_outputs().value().result_valid);
+}
+
+TEST(ModbusServer, AnswersForAWorkerThatHangs) {
+  ServerOptions options;
+  options.request_timeout = 100ms;
+  const auto server = start_server(options);
+  ModbusClient client = connect_to(*server);
+  ASSERT_TRUE(client.trigger({.request_id = 8}).ok());
+  const Result<HandshakeOutputs> out = client.wait_done(2000ms);
+  ASSERT_TRUE(out.ok());
+  EXPECT_TRUE(out.value().error);
+  EXPECT_FALSE(out.value().result_valid);
+  const Result<ResultBlock> result = client.read_block();
+  EXPECT_EQ(result.value().code, ResultCode::deadline);
+  EXPECT_EQ(result.value().request_id, 8);
+}
+
+TEST(ModbusServer, BeatsAndMakesProgressWithoutClients) {
+  const auto server = start_server();
+  ModbusClient client = connect_to(*server);
+  const std::uint64_t progress = server->progress_count();
+  const std::uint16_t beat = client.read_live(live_register::heartbeat).value();
+  std::this_thread::sleep_for(1200ms);
+  EXPECT_NE(client.read_live(live_register::heartbeat).value(), beat);
+  EXPECT_GT(server->progress_count(), progress + 5);
+}
+
+TEST(ModbusServer, ReadsNeverTearUnderConcurrentCommits) {
+  const auto server = start_server();
+  Worker worker(*server, pick_for);
+  std::atomic<bool> stop{false};
+  std::atomic<int> reads{0};
+  std::atomic<int> wrong{0};
+  std::vector<std::thread> readers;
+  for (int i = 0; i < 3; ++i) {
+    readers.emplace_back([&] {
+      ModbusClient client = connect_to(*server);
+      while (!stop.load()) {
+        const Result<ResultBlock> result = client.read_block();
+        const bool whole = result.ok() && (result.value().sequence == 0 ||
+                                           (std::abs(result.value().pick.translation.x() * 1000.0F -
+                                                     static_cast<float>(result.value().sequence)) < 0.01F &&
+                                            std::abs(result.value().part_pose.translation.x() * 1000.0F -
+                                                     static_cast<float>(result.value().sequence)) < 0.01F));
+        if (!whole) wrong.fetch_add(1);
+        reads.fetch_add(1);
+      }
+    });
+  }
+  ModbusClient client = connect_to(*server);
+  constexpr int rounds = 2000;
+  int valid = 0;
+  for (int i = 0; i < rounds; ++i) {
+    ASSERT_TRUE(client.write_request({.request_id = static_cast<std::uint16_t>(i)}).ok());
+    ASSERT_TRUE(client.write_coil(coil::trigger, true).ok());
+    Result<HandshakeOutputs> out = client.read_outputs();
+    while (out.ok() && !out.value().done) out = client.read_outputs();
+    const Result<ResultBlock> result = client.read_block();
+    ASSERT_TRUE(result.ok());
+    if (out.value().result_valid && result.value().request_id == i && result.value().sequence == i + 1) ++valid;
+    ASSERT_TRUE(client.acknowledge().ok());
+  }
+  stop.store(true);
+  for (std::thread& reader : readers) reader.join();
+  EXPECT_EQ(valid, rounds);
+  EXPECT_EQ(worker.requests.load(), rounds);
+  EXPECT_EQ(wrong.load(), 0);
+  EXPECT_GT(reads.load(), 1000);
+}
+
+}  // namespace
+}  // namespace graspd
