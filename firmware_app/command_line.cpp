@@ -1,0 +1,89 @@
+#include "firmware_app/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "firmware_app/commands.hpp"
+#include "firmware_app/settings_table.hpp"
+
+#ifndef GRASPD_VERSION
+#define GRASPD_VERSION "development"
+#endif
+
+namespace graspd {
+namespace {
+
+constexpr const char* overview =
+    "graspd finds parts in a bin with a 3D camera and tells a PLC where to pick them.\n"
+    "\n"
+    "From a CAD file to a pick:\n"
+    "  graspd bank compile part.toml -o part.bank    make a bank from the CAD file\n"
+    "  graspd detect frame.png --bank part.bank      try it on a recorded frame\n"
+    "  graspd check --config graspd.toml             configuration, banks, memory\n"
+    "  graspd run --config graspd.toml               serve the PLC\n"
+    "Each subcommand explains itself: graspd detect --help";
+
+constexpr const char* exit_codes =
+    "Exit codes (the same numbers stand in the log and in the PLC's result code):\n"
+    "   0 fine                          7 memory budget too small\n"
+    "   1 fault of graspd itself        8 Modbus address in use\n"
+    "   2 command line not understood   9 request for an unknown part\n"
+    "   3 configuration or part file   10 camera does not answer\n"
+    "   4 mesh, image, cloud, data set 11 frame too old\n"
+    "   5 bank                         12 frame without usable depth\n"
+    "   6 output cannot be written     13 deadline passed";
+
+/// What to say when the words do not make a command: the subcommand that was probably meant.
+std::string advice(const CLI::App& app, const CLI::ParseError& problem, int argument_count,
+                   const char* const* arguments) {
+  if (argument_count > 1 && arguments[1][0] != '-' && app.get_subcommands().empty()) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+    const std::string near = nearest_word(arguments[1], names);
+    return std::string("there is no subcommand ") + arguments[1] +
+           (near.empty() ? std::string("; see graspd --help") : "; did you mean " + near + "?");
+  }
+  return std::string(problem.what()) + "; see graspd --help";
+}
+
+int report(const Status& status) {
+  if (!status.ok()) {
+    std::fprintf(stderr, "graspd: %.*s\n", static_cast<int>(status.message().size()), status.message().data());
+  }
+  return static_cast<int>(status.code());
+}
+
+}  // namespace
+
+int run_command_line(int argument_count, const char* const* arguments) {
+  Status outcome;
+  CLI::App app(overview, "graspd");
+  app.footer(exit_codes);
+  app.set_version_flag("--version", "graspd " GRASPD_VERSION);
+  app.require_subcommand(1);
+  CLI::App* bank = app.add_subcommand("bank", "Make banks and look into them");
+  bank->require_subcommand(1);
+  add_bank_compile_command(*bank, outcome);
+  add_validate_command(app, outcome);
+  add_check_command(app, outcome);
+  try {
+    app.parse(argument_count, arguments);
+  } catch (const CLI::CallForHelp&) {
+    return app.exit(CLI::CallForHelp());
+  } catch (const CLI::CallForAllHelp&) {
+    return app.exit(CLI::CallForAllHelp());
+  } catch (const CLI::CallForVersion&) {
+    std::puts(app.version().c_str());
+    return 0;
+  } catch (const CLI::ParseError& problem) {
+    return report(Status(StatusCode::usage, advice(app, problem, argument_count, arguments)));
+  } catch (const std::exception& problem) {
+    return report(Status::format(StatusCode::internal, "unexpected: %s", problem.what()));
+  }
+  return report(outcome);
+}
+
+}  // namespace graspd

@@ -1,0 +1,3 @@
+#include "firmware_app/command_line.hpp"
+
+int main(int argument_count, char** arguments) { return graspd::run_command_line(argument_count, arguments); }

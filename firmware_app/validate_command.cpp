@@ -1,0 +1,103 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "drivers/files/atomic_file.hpp"
+#include "firmware_app/commands.hpp"
+#include "firmware_app/progress_bar.hpp"
+#include "firmware_app/validation.hpp"
+
+namespace graspd {
+namespace {
+
+struct ValidateOptions {
+  ValidationOptions validation;
+  std::string output;
+};
+
+void print_heading() {
+  std::printf("%-24s %6s %6s %6s %6s   %6s %8s %6s   %16s %8s\n", "", "AR", "VSD", "MSSD", "MSPD", "<0.3", "0.3-0.5",
+              ">0.5", "right / reported", "targets");
+}
+
+void print_row(const std::string& label, const EvaluationRow& row) {
+  const AverageRecall& recall = row.recall;
+  std::printf("%-24s %6.3f %6.3f %6.3f %6.3f   %6.2f %8.2f %6.2f   %5.2f %5zu/%-5zu %7zu\n", label.c_str(),
+              recall.mean(), recall.visible_surface, recall.surface, recall.projection,
+              row.found_by_visibility[0].value(), row.found_by_visibility[1].value(),
+              row.found_by_visibility[2].value(), row.precision.value(), row.precision.hits, row.precision.total,
+              row.targets);
+}
+
+void print_summary(const Validation& validation) {
+  const EvaluationSummary summary = summarise(validation.errors);
+  std::printf(
+      "Average recall of BOP'19; recall by visibility and right / reported count poses with MSSD below 0.1 of\n"
+      "the diameter, the latter against every true instance, however little of it is visible.\n\n");
+  print_heading();
+  print_row("all", summary.all);
+  for (const LabelledRow& part : summary.by_part) {
+    std::string label = "part " + part.label;
+    for (const auto& [id, name] : validation.part_names) {
+      if (id == part.part) label += " " + name;
+    }
+    print_row(label, part.row);
+  }
+  for (const LabelledRow& level : summary.by_level) print_row("level " + level.label, level.row);
+  std::printf("\nbest scored instance right in %zu of %zu images with a part more than half visible\n",
+              summary.first_right.hits, summary.first_right.total);
+  std::printf("seconds a frame: median %.3f, mean %.3f (", summary.median_seconds, summary.mean_seconds);
+  for (std::size_t i = 0; i < stage_count; ++i) {
+    std::printf("%s%s %.3f", i == 0 ? "" : ", ", stage_name(static_cast<Stage>(i)), validation.stage_seconds[i]);
+  }
+  std::printf(")\n");
+}
+
+Status run_validation(const ValidateOptions& options) {
+  if (Status writable = check_writable(options.output); !writable.ok()) return writable;
+  ProgressBar bar;
+  const Result<Validation> validation =
+      validate(options.validation, [&](float share, const std::string& label) { bar.show(label, share); });
+  bar.clear();
+  if (!validation.ok()) return validation.status();
+  if (Status written = write_bop_results(options.output, validation.value().results); !written.ok()) return written;
+  std::printf("%zu instances reported in %zu images, written to %s\n", validation.value().results.size(),
+              validation.value().images, options.output.c_str());
+  if (validation.value().errors.empty()) {
+    std::printf("No ground truth (scene_gt.json): nothing to compare with.\n");
+  } else {
+    print_summary(validation.value());
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_validate_command(CLI::App& command_line, Status& outcome) {
+  auto options = std::make_shared<ValidateOptions>();
+  options->validation.split = "test";
+  CLI::App* command = command_line.add_subcommand("validate", "Measure recall on recorded frames with known poses");
+  command->add_option("--bop", options->validation.root, "Data set in BOP format")->required();
+  command->add_option("--split", options->validation.split, "Its images: <split>_targets_bop19.json lists them")
+      ->capture_default_str();
+  command->add_option("--banks", options->validation.bank_folder, "Folder with obj_000001.bank ...")->required();
+  command->add_option("-o,--output", options->output, "Results in BOP's form (CSV)")->required();
+  command->add_option("--threads", options->validation.threads, "Threads; the result does not depend on them")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 256));
+  command->add_flag("--no-background", options->validation.without_empty_bin,
+                    "Do without the scenes' frames of the empty bin");
+  command->footer(
+      "For each image of the targets file, detects the objects listed for it (their counts are not\n"
+      "used), writes every instance reported at the default threshold, then prints average recall,\n"
+      "recall by visibility, the share of reported instances that are right, and seconds a frame.\n"
+      "The time of a row is that of its whole frame: depth in memory to verified instances.\n"
+      "\n"
+      "Example:\n"
+      "  graspd bank compile --bop /data/synth_dev -o banks\n"
+      "  graspd validate --bop /data/synth_dev --split val --banks banks -o results.csv");
+  command->callback([options, &outcome] { outcome = run_validation(*options); });
+}
+
+}  // namespace graspd

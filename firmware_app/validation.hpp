@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/detect/detections.hpp"
+#include "core/evaluate/summary.hpp"
+#include "core/status.hpp"
+#include "drivers/files/bop_dataset.hpp"
+
+namespace graspd {
+
+/// What `graspd validate` is asked for.
+struct ValidationOptions {
+  std::string root;         ///< A BOP data set.
+  std::string split;        ///< Its folder of scenes and the first word of its targets file.
+  std::string bank_folder;  ///< Holds obj_000001.bank and so on.
+  int threads = 1;
+  bool without_empty_bin = false;  ///< Do not use the scenes' empty frames.
+};
+
+/// What was found in all images of the targets file.
+struct Validation {
+  std::vector<BopResult> results;   ///< Every instance reported, in BOP's form.
+  std::vector<ImageErrors> errors;  ///< Of the images that have a ground truth.
+  std::vector<std::pair<std::uint32_t, std::string>> part_names;
+  std::array<double, stage_count> stage_seconds{};  ///< Mean over the images.
+  std::size_t images = 0;
+};
+
+/// Detects, in each image of `split`_targets_bop19.json, the parts that are listed for it (their counts
+/// are not used) and compares what is reported with the ground truth where there is one. `progress` gets
+/// the share done and the image in hand. Fails as reading data sets, frames and banks does.
+[[nodiscard]] Result<Validation> validate(const ValidationOptions& options,
+                                          const std::function<void(float, const std::string&)>& progress);
+
+}  // namespace graspd

@@ -1,0 +1,123 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "firmware_app/part_file.hpp"
+#include "tests/firmware_app/temporary_folder.hpp"
+
+namespace graspd {
+namespace {
+
+using testing::EndsWith;
+using testing::StartsWith;
+
+constexpr std::string_view smallest = "name = \"nut\"\nid = 7\nmesh = \"nut.stl\"\n";
+
+class PartFileText : public testing::Test {
+ protected:
+  Result<PartFile> read(std::string_view more) {
+    return read_part_file(folder_.write("part.toml", std::string(smallest) + std::string(more)));
+  }
+  std::string complaint(std::string_view more) {
+    const Result<PartFile> result = read(more);
+    if (result.ok()) return "(accepted)";
+    EXPECT_EQ(result.status().code(), StatusCode::bad_configuration);
+    const std::string message(result.status().message());
+    return message.substr(std::min(message.size(), folder_.path("").size()));
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(PartFileText, SmallestOneLeavesSymmetriesToTheBuilder) {
+  const Result<PartFile> result = read("");
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  EXPECT_EQ(result.value().part.name, "nut");
+  EXPECT_EQ(result.value().part.part_id, 7U);
+  EXPECT_EQ(result.value().mesh_path, folder_.path("nut.stl"));
+  EXPECT_EQ(result.value().mesh_unit, LengthUnit::millimetres);
+  EXPECT_FALSE(result.value().part.symmetry_given);
+}
+
+TEST_F(PartFileText, EmptySymmetrySectionMeansNone) {
+  const Result<PartFile> result = read("[symmetry]\n");
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  EXPECT_TRUE(result.value().part.symmetry_given);
+  EXPECT_TRUE(result.value().part.symmetry_discrete.empty());
+  EXPECT_FALSE(result.value().part.symmetry_continuous);
+}
+
+TEST_F(PartFileText, DiscreteAxesAreClosedToAGroup) {
+  const Result<PartFile> result =
+      read("[[symmetry.discrete]]\naxis = [0, 0, 2]\nfold = 6\n[[symmetry.discrete]]\naxis = [1, 0, 0]\nfold = 2\n");
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  EXPECT_EQ(result.value().part.symmetry_discrete.size(), 11U) << "a hexagonal prism has 12 with the identity";
+  for (const RigidTransform& transform : result.value().part.symmetry_discrete) {
+    EXPECT_GT(rotation_angle(transform.rotation), 0.5F) << "the identity is not listed";
+  }
+}
+
+TEST_F(PartFileText, OffsetOfAnAxisTurnsAboutThatPoint) {
+  const Result<PartFile> result = read("[[symmetry.discrete]]\naxis = [0, 0, 1]\nfold = 2\noffset = [10, 0, 0]\n");
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  ASSERT_EQ(result.value().part.symmetry_discrete.size(), 1U);
+  EXPECT_TRUE((result.value().part.symmetry_discrete[0] * Vector3::Zero()).isApprox(Vector3(0.02F, 0, 0), 1e-5F));
+}
+
+TEST_F(PartFileText, AxesThatMakeNoGroupAreRefused) {
+  EXPECT_EQ(complaint("[[symmetry.discrete]]\naxis = [0, 0, 1]\nfold = 5\n[[symmetry.discrete]]\naxis = [1, 0, 3]\n"
+                      "fold = 7\n"),
+            "part.toml:4: symmetry.discrete does not make a finite group: the axes must meet in one point at right "
+            "angles");
+}
+
+TEST_F(PartFileText, GraspMakesARightHandedToolFrame) {
+  const Result<PartFile> result = read(
+      "[[grasp]]\nposition = [0, 5, 10]\napproach = [0, 0, -3]\nclosing = [0, 2, 0]\nwidth = 40\npriority = 2\n"
+      "[[grasp]]\nposition = [0, 0, 0]\napproach = [1, 0, 0]\nclosing = [0, 1, 0]\n");
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  ASSERT_EQ(result.value().part.grasps.size(), 2U);
+  const PartGrasp& grasp = result.value().part.grasps[0];
+  EXPECT_TRUE(grasp.part_from_tool.translation.isApprox(Vector3(0, 0.005F, 0.01F)));
+  EXPECT_TRUE(grasp.part_from_tool.rotation.col(2).isApprox(Vector3(0, 0, -1)));
+  EXPECT_TRUE(grasp.part_from_tool.rotation.col(0).isApprox(Vector3(0, 1, 0)));
+  EXPECT_NEAR(grasp.part_from_tool.rotation.determinant(), 1.0F, 1e-5F);
+  EXPECT_FLOAT_EQ(grasp.opening, 0.04F);
+  EXPECT_EQ(grasp.priority, 2);
+  EXPECT_EQ(grasp.number, 1U);
+  EXPECT_EQ(result.value().part.grasps[1].number, 2U);
+}
+
+TEST_F(PartFileText, SkewGraspIsRefused) {
+  EXPECT_EQ(complaint("[[grasp]]\nposition = [0, 0, 0]\napproach = [0, 0, 1]\nclosing = [1, 0, 1]\n"),
+            "part.toml:7: grasp.closing must be at a right angle to the approach");
+  EXPECT_EQ(complaint("[[grasp]]\nposition = [0, 0, 0]\napproach = [0, 0, 0]\nclosing = [1, 0, 1]\n"),
+            "part.toml:6: grasp.approach must be a direction, but has no length");
+}
+
+TEST_F(PartFileText, GraspWithoutPositionSaysSo) {
+  EXPECT_THAT(complaint("[[grasp]]\napproach = [0, 0, 1]\nclosing = [1, 0, 0]\n"),
+              StartsWith("part.toml:4: grasp.position is missing: "));
+}
+
+TEST_F(PartFileText, MisspeltKeysNameTheNearest) {
+  EXPECT_THAT(complaint("unit = \"mm\"\n"), EndsWith("unknown key unit; did you mean units?"));
+  EXPECT_THAT(complaint("[thresholds]\nminimum_scor = 0.5\n"),
+              EndsWith("unknown key thresholds.minimum_scor; did you mean thresholds.minimum_score?"));
+}
+
+TEST_F(PartFileText, ThresholdsAndBuildParametersAreTaken) {
+  const Result<PartFile> result = read("[thresholds]\nminimum_edge = 0.4\n[build]\nmaximum_incidence = 60\n");
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  EXPECT_FLOAT_EQ(result.value().part.thresholds.minimum_edge, 0.4F);
+  EXPECT_NEAR(result.value().build.maximum_incidence, 1.0472F, 1e-4F);
+}
+
+TEST_F(PartFileText, NameThatDoesNotFitTheBankIsRefused) {
+  const std::string path =
+      folder_.write("part.toml", "name = \"" + std::string(64, 'x') + "\"\nid = 1\nmesh = \"a\"\n");
+  const Result<PartFile> result = read_part_file(path);
+  ASSERT_FALSE(result.ok());
+  EXPECT_THAT(std::string(result.status().message()), EndsWith(":1: name must have between 1 and 63 letters"));
+}
+
+}  // namespace
+}  // namespace graspd
