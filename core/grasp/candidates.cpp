@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "core/grasp/ranking.hpp"
@@ -71,8 +72,8 @@ GraspCandidate candidate_at(const RigidTransform& robot_from_part, const PartGra
 GraspRejection test_pose(const GraspCandidate& candidate, const GraspParameters& parameters) {
   if (candidate.tilt > parameters.maximum_tilt) return GraspRejection::tilt;
   const RigidTransform approach = approach_of(candidate.robot_from_tool, parameters.approach_distance);
-  const bool reached =
-      within_reach(parameters.reach, candidate.robot_from_tool) && within_reach(parameters.reach, approach);
+  const bool reached = within_reach(parameters.reach, candidate.robot_from_tool) &&
+                       within_reach(parameters.reach, approach) && std::isfinite(candidate.value);
   return reached ? GraspRejection::none : GraspRejection::reach;
 }
 
@@ -96,7 +97,8 @@ Matrix3 preferred_orientation(const GraspParameters& parameters) {
 bool within_reach(const ReachLimits& reach, const RigidTransform& robot_from_tool) {
   const Vector3& place = robot_from_tool.translation;
   const float radius = place.head<2>().norm();
-  return distance_to_box(place, reach.box) <= 0.0F && radius >= reach.minimum_radius && radius <= reach.maximum_radius;
+  return place.allFinite() && distance_to_box(place, reach.box) <= 0.0F && radius >= reach.minimum_radius &&
+         radius <= reach.maximum_radius;
 }
 
 RigidTransform approach_of(const RigidTransform& robot_from_tool, float distance) {

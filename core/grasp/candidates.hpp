@@ -34,7 +34,7 @@ struct GraspTarget {
 /// GraspParameters::preferred_closing; robot_from_tool.
 [[nodiscard]] Matrix3 preferred_orientation(const GraspParameters& parameters);
 
-/// Whether tool poses at the pick and at the approach lie within the limits.
+/// Whether the tool centre point is a place within the limits.
 [[nodiscard]] bool within_reach(const ReachLimits& reach, const RigidTransform& robot_from_tool);
 
 /// The tool `distance` metres back along its z.

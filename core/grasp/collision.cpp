@@ -62,7 +62,8 @@ Shadow shadow_of(const Camera& camera, const RigidTransform& camera_from_tool, c
   if (shadow.furthest < nearest_projected) return shadow;
   const auto right = static_cast<float>(camera.width - 1);
   const auto bottom = static_cast<float>(camera.height - 1);
-  if (shadow.nearest < nearest_projected) {
+  const bool projected = shadow.nearest >= nearest_projected && low.allFinite() && high.allFinite();
+  if (!projected) {
     shadow.pixels = {0, camera.width - 1, 0, camera.height - 1};
   } else {
     shadow.pixels = {static_cast<int>(std::clamp(std::floor(low.x()), 0.0F, right + 1.0F)),

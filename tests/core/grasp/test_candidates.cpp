@@ -156,6 +156,18 @@ TEST_F(Candidates, ReachIsTestedAtPickAndApproach) {
   EXPECT_EQ(fill(), GraspRejection::reach);
 }
 
+TEST_F(Candidates, PlaceThatIsNoNumberIsOutOfReach) {
+  for (const float place : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    part.grasps[0].part_from_tool.translation.x() = place;
+    EXPECT_EQ(fill(), GraspRejection::reach);
+  }
+}
+
+TEST_F(Candidates, ValueThatIsNoNumberIsNotRanked) {
+  target.drop = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(fill(), GraspRejection::reach);
+}
+
 TEST_F(Candidates, ReasonIsThatOfTheGraspThatCameFurthest) {
   part.grasps.clear();
   EXPECT_EQ(fill(), GraspRejection::no_grasp);
