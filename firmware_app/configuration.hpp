@@ -1,13 +1,16 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "core/detect/parameters.hpp"
 #include "core/geometry/rigid_transform.hpp"
+#include "core/grasp/parameters.hpp"
 #include "core/status.hpp"
 #include "drivers/camera/recorded_source.hpp"
+#include "drivers/plc/modbus_server.hpp"
 
 namespace graspd {
 
@@ -20,25 +23,21 @@ enum class CameraKind : std::uint8_t {
 struct CameraSettings {
   CameraKind kind = CameraKind::recorded;
   RecordedSourceOptions recorded;
-  float maximum_age = 1.0F;  ///< Seconds from exposure to the trigger's frame; an older one is not used.
+  float maximum_age = 1.0F;  ///< Seconds between exposure and grabbing; an older frame is not used.
 };
 
-/// [detect]
+/// [detect] and [limits]
 struct DetectSettings {
   DetectParameters parameters;
   DetectCapacity capacity;
-  float minimum_score = -1.0F;  ///< Negative: the bank's own.
-  float deadline = 0.0F;        ///< Seconds after the trigger; 0: none.
+  float minimum_score = -1.0F;   ///< When the PLC asks for none; negative: the bank's own.
+  std::int64_t deadline_ns = 0;  ///< After the trigger; 0: none.
 };
 
-/// [modbus]
-struct ModbusSettings {
-  std::string address = "127.0.0.1";
-  int port = 502;
-  int unit = 1;
-  int maximum_clients = 8;
-  std::vector<std::string> allow;  ///< Client addresses; empty: all.
-  float idle_timeout = 60.0F;      ///< Seconds; 0: none.
+/// [grasp] and [gripper]
+struct GraspSettings {
+  GraspParameters parameters;
+  GraspCapacity capacity;
 };
 
 /// What `graspd run` is told by its configuration file (configs/graspd.toml explains each key).
@@ -46,11 +45,11 @@ struct ModbusSettings {
 struct Configuration {
   std::string path;
   CameraSettings camera;
-  RigidTransform robot_from_camera;  ///< The identity when there is no calibration.
-  bool calibrated = false;
+  bool calibrated = false;  ///< robot_from_camera is given; it lies in grasp.parameters.
   std::vector<std::string> banks;
   DetectSettings detect;
-  ModbusSettings modbus;
+  GraspSettings grasp;
+  ServerOptions plc;
   std::size_t memory_budget = std::size_t{512} << 20U;  ///< Bytes.
   bool memory_lock = true;
   std::string picture;  ///< Where the latest annotated picture goes; empty: nowhere.

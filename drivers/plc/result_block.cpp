@@ -21,7 +21,7 @@ struct PoseScale {
 
 [[nodiscard]] PoseScale float_scale(const BlockFormat& format) {
   const bool is_angle = format.convention != PoseConvention::quaternion;
-  return {format.length == LengthUnit::millimetre ? 1e3 : 1.0,
+  return {format.length == PositionUnit::millimetre ? 1e3 : 1.0,
           is_angle && format.angle == AngleUnit::degree ? degrees_per_radian : 1.0};
 }
 

@@ -13,7 +13,7 @@
 
 namespace graspd {
 
-enum class LengthUnit : std::uint8_t { millimetre, metre };
+enum class PositionUnit : std::uint8_t { millimetre, metre };
 enum class AngleUnit : std::uint8_t { degree, radian };
 
 /// How the values of a block are written. Scaled integers are in micrometres, and in thousandths of a
@@ -21,7 +21,7 @@ enum class AngleUnit : std::uint8_t { degree, radian };
 struct BlockFormat {
   WordOrder word_order = WordOrder::abcd;
   PoseConvention convention = PoseConvention::rotation_vector;
-  LengthUnit length = LengthUnit::millimetre;
+  PositionUnit length = PositionUnit::millimetre;
   AngleUnit angle = AngleUnit::degree;
 };
 

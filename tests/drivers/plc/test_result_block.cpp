@@ -58,7 +58,7 @@ TEST(ResultBlock, ReadsBackInEveryFormat) {
   const ResultBlock result = sample();
   for (const WordOrder order : {WordOrder::abcd, WordOrder::cdab, WordOrder::badc, WordOrder::dcba}) {
     for (std::uint16_t convention = 1; convention <= pose_convention_count; ++convention) {
-      for (const LengthUnit length : {LengthUnit::millimetre, LengthUnit::metre}) {
+      for (const PositionUnit length : {PositionUnit::millimetre, PositionUnit::metre}) {
         for (const AngleUnit angle : {AngleUnit::degree, AngleUnit::radian}) {
           const BlockFormat format{order, static_cast<PoseConvention>(convention), length, angle};
           const Words words = encoded(result, format);
@@ -103,7 +103,7 @@ TEST(ResultBlock, WritesMillimetresAndDegreesUnlessToldOtherwise) {
 
   BlockFormat radians;
   radians.angle = AngleUnit::radian;
-  radians.length = LengthUnit::metre;
+  radians.length = PositionUnit::metre;
   const Words other = encoded(result, radians);
   EXPECT_FLOAT_EQ(get_float(std::span(other).subspan(block::pick_pose), WordOrder::abcd), 0.1F);
   EXPECT_EQ(get_int32(std::span(other).subspan(block::pick_pose_scaled), WordOrder::abcd), 100'000);

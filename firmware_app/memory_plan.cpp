@@ -1,0 +1,99 @@
+#include "firmware_app/memory_plan.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "firmware_app/detection_session.hpp"
+
+namespace graspd {
+namespace {
+
+double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1024.0 * 1024.0); }
+
+/// Drawing works on the C library's heap, after the answer is out: the picture (enlarged up to twice),
+/// its coloured depth, a depth image for occlusion and the PNG.
+constexpr std::size_t picture_bytes_per_pixel = 40;
+
+}  // namespace
+
+WorkingMemory carve_working_memory(Arena& arena, const WorkingCapacity& capacity) {
+  WorkingMemory memory;
+  memory.frame = arena.take<float>(capacity.frame_pixels, "frame");
+  memory.detect = carve_detect_workspace(arena, capacity.detect);
+  memory.grasp = carve_grasp_workspace(arena, capacity.grasp);
+  if (capacity.picture) {
+    memory.pictured_frame = arena.take<float>(capacity.frame_pixels, "picture");
+    memory.pictured_instances = arena.take<Instance>(capacity.detect.instances, "picture");
+  }
+  return memory;
+}
+
+std::size_t MemoryPlan::total() const {
+  std::size_t sum = 0;
+  for (const Row& row : rows) sum += row.bytes;
+  return sum;
+}
+
+std::size_t resident_bytes() {
+  std::size_t pages = 0;
+  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%*u %zu", &pages) != 1) pages = 0;
+    std::fclose(file);
+  }
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+MemoryPlan plan_memory(const Configuration& configuration, const LoadedBanks& banks, const FrameLimits& limits,
+                       std::size_t recorded_bytes, std::size_t baseline) {
+  MemoryPlan plan;
+  plan.capacity.frame_pixels =
+      static_cast<std::size_t>(limits.maximum_width) * static_cast<std::size_t>(limits.maximum_height);
+  plan.capacity.detect = fitted_capacity(configuration.detect.capacity, limits, banks.banks);
+  plan.capacity.grasp = configuration.grasp.capacity;
+  plan.capacity.picture = !configuration.picture.empty();
+
+  Arena arena = Arena::measuring();
+  static_cast<void>(carve_working_memory(arena, plan.capacity));
+  plan.arena_bytes = arena.used();
+  for (const ArenaOwner& owner : arena.owners())
+    plan.rows.push_back({"arena: " + std::string(owner.name), owner.bytes});
+  plan.rows.push_back({"banks (mapped, shared)", banks.mapped_bytes()});
+  if (recorded_bytes > 0) plan.rows.push_back({"recorded frames", recorded_bytes});
+  if (plan.capacity.picture) {
+    plan.rows.push_back({"drawing the picture", plan.capacity.frame_pixels * picture_bytes_per_pixel});
+  }
+  // The worker is one of the detection's threads; beside them: Modbus and, when wanted, the picture.
+  const auto threads = static_cast<std::size_t>(configuration.detect.parameters.threads) + 1 +
+                       (plan.capacity.picture ? std::size_t{1} : std::size_t{0});
+  plan.rows.push_back({"thread stacks", threads * thread_stack_bytes});
+  plan.rows.push_back({"program and libraries", baseline});
+  return plan;
+}
+
+Status check_budget(const Configuration& configuration, const MemoryPlan& plan) {
+  const std::size_t total = plan.total();
+  if (total <= configuration.memory_budget) return {};
+  const auto largest = std::max_element(plan.rows.begin(), plan.rows.end(),
+                                        [](const auto& a, const auto& b) { return a.bytes < b.bytes; });
+  return Status::format(StatusCode::memory_limit,
+                        "%s: memory.budget is %.1f MiB, but %.1f MiB are needed, %.1f of them for %s; raise the budget "
+                        "or lower [limits]",
+                        configuration.path.c_str(), mebibytes(configuration.memory_budget), mebibytes(total),
+                        mebibytes(largest->bytes), largest->name.c_str());
+}
+
+std::string memory_table(const MemoryPlan& plan, std::size_t budget) {
+  std::string table;
+  char line[160];
+  for (const MemoryPlan::Row& row : plan.rows) {
+    std::snprintf(line, sizeof line, "%-32s %10.2f MiB\n", row.name.c_str(), mebibytes(row.bytes));
+    table += line;
+  }
+  std::snprintf(line, sizeof line, "%-32s %10.2f MiB\n%-32s %10.2f MiB (memory.budget)\n", "together",
+                mebibytes(plan.total()), "allowed", mebibytes(budget));
+  return table + line;
+}
+
+}  // namespace graspd
