@@ -64,9 +64,11 @@ int run_command_line(int argument_count, const char* const* arguments) {
   app.footer(exit_codes);
   app.set_version_flag("--version", "graspd " GRASPD_VERSION);
   app.require_subcommand(1);
+  add_detect_command(app, outcome);
   CLI::App* bank = app.add_subcommand("bank", "Make banks and look into them");
   bank->require_subcommand(1);
   add_bank_compile_command(*bank, outcome);
+  add_bank_show_command(*bank, outcome);
   add_validate_command(app, outcome);
   add_check_command(app, outcome);
   try {

@@ -16,10 +16,13 @@ DetectCapacity fitted_capacity(DetectCapacity base, const FrameLimits& limits, s
   return base;
 }
 
-DetectionSession::DetectionSession(const FrameLimits& limits, std::span<const Bank> banks, int threads) {
+void DetectionSession::fit(const FrameLimits& limits, std::span<const Bank> banks, int threads) {
+  if (limits.maximum_width <= limits_.maximum_width && limits.maximum_height <= limits_.maximum_height) return;
+  limits_ = {std::max(limits.maximum_width, limits_.maximum_width),
+             std::max(limits.maximum_height, limits_.maximum_height)};
   DetectCapacity base;
   base.threads = threads;
-  const DetectCapacity capacity = fitted_capacity(base, limits, banks);
+  const DetectCapacity capacity = fitted_capacity(base, limits_, banks);
   Arena measure = Arena::measuring();
   static_cast<void>(carve_detect_workspace(measure, capacity));
   block_ = MemoryBlock(measure.used());

@@ -16,13 +16,15 @@ namespace graspd {
 /// work offline.
 class DetectionSession {
  public:
-  DetectionSession(const FrameLimits& limits, std::span<const Bank> banks, int threads);
+  /// Makes room for frames up to `limits` and for these banks; does nothing when there is room already.
+  void fit(const FrameLimits& limits, std::span<const Bank> banks, int threads);
 
-  /// See detect(); the result is valid until the next call.
+  /// See detect(); call fit() before. The result is valid until the next call.
   [[nodiscard]] Status run(const DepthFrame& frame, const DetectRequest& request, const DetectParameters& parameters,
                            Detections& detections);
 
  private:
+  FrameLimits limits_;
   MemoryBlock block_;
   DetectWorkspace workspace_;
 };

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -56,6 +57,14 @@ void print_summary(const Validation& validation) {
 
 Status run_validation(const ValidateOptions& options) {
   if (Status writable = check_writable(options.output); !writable.ok()) return writable;
+  if (!options.validation.picture_folder.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(options.validation.picture_folder, error);
+    if (error) {
+      return Status::format(StatusCode::cannot_write, "%s: cannot be made: %s; choose another --picture-dir",
+                            options.validation.picture_folder.c_str(), error.message().c_str());
+    }
+  }
   ProgressBar bar;
   const Result<Validation> validation =
       validate(options.validation, [&](float share, const std::string& label) { bar.show(label, share); });
@@ -88,6 +97,8 @@ void add_validate_command(CLI::App& command_line, Status& outcome) {
       ->check(CLI::Range(1, 256));
   command->add_flag("--no-background", options->validation.without_empty_bin,
                     "Do without the scenes' frames of the empty bin");
+  command->add_option("--picture-dir", options->validation.picture_folder,
+                      "Write each frame with the instances found into this folder");
   command->footer(
       "For each image of the targets file, detects the objects listed for it (their counts are not\n"
       "used), writes every instance reported at the default threshold, then prints average recall,\n"

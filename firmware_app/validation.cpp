@@ -1,27 +1,23 @@
 #include "firmware_app/validation.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
+#include "drivers/files/detection_picture.hpp"
 #include "drivers/files/mesh_file.hpp"
 #include "drivers/files/whole_file.hpp"
+#include "drivers/system/clock.hpp"
+#include "firmware_app/detection_report.hpp"
 #include "firmware_app/detection_session.hpp"
 #include "firmware_app/loaded_banks.hpp"
 
 namespace graspd {
 namespace {
-
-std::int64_t monotonic_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 std::string numbered(const char* prefix, int number, const char* ending) {
   char text[64];
@@ -107,6 +103,41 @@ Result<std::vector<EvaluationPart>> evaluation_parts(const ValidationOptions& op
   return parts;
 }
 
+/// What the images of a split are searched for and judged by.
+struct DataSet {
+  std::vector<ImageTargets> images;
+  std::map<int, std::size_t> bank_index;  ///< By obj_id.
+  LoadedBanks banks;
+  std::vector<EvaluationPart> parts;
+};
+
+Result<DataSet> open_data_set(const ValidationOptions& options) {
+  const Result<std::vector<BopTarget>> targets = read_bop_targets(options.root, options.split);
+  if (!targets.ok()) return targets.status();
+  std::set<int> wanted;
+  for (const BopTarget& target : targets.value()) wanted.insert(target.obj_id);
+  DataSet data;
+  data.images = by_image(targets.value());
+  std::vector<std::string> paths;
+  for (const int obj_id : wanted) {
+    data.bank_index[obj_id] = paths.size();
+    paths.push_back((std::filesystem::path(options.bank_folder) / numbered("obj_", obj_id, ".bank")).string());
+  }
+  Result<LoadedBanks> banks = load_banks(paths);
+  if (!banks.ok()) return banks.status();
+  data.banks = std::move(banks).value();
+  for (const auto& [obj_id, index] : data.bank_index) {
+    const std::uint32_t part_id = data.banks.banks[index].part->part_id;
+    if (part_id == static_cast<std::uint32_t>(obj_id)) continue;
+    return Status::format(StatusCode::bad_bank, "%s: is of part number %u, not %d; compile it with --bop",
+                          paths[index].c_str(), part_id, obj_id);
+  }
+  Result<std::vector<EvaluationPart>> parts = evaluation_parts(options, wanted);
+  if (!parts.ok()) return parts.status();
+  data.parts = std::move(parts).value();
+  return data;
+}
+
 EvaluationImage compared(const ImageTargets& image, const SceneFiles& files, const Detections& detections,
                          std::span<const Bank> banks, double seconds) {
   EvaluationImage result;
@@ -128,83 +159,78 @@ EvaluationImage compared(const ImageTargets& image, const SceneFiles& files, con
   return result;
 }
 
+Status draw(const ValidationOptions& options, const ImageTargets& image, const DepthFrame& frame,
+            const Detections& detections, std::span<const Bank> banks, double seconds) {
+  const std::string name = numbered("", image.scene_id, "_") + numbered("", image.im_id, ".png");
+  char caption[96];
+  std::snprintf(caption, sizeof caption, "scene %d, image %d: %zu instances in %.2f s", image.scene_id, image.im_id,
+                detections.instances.size(), seconds);
+  const std::vector<DrawnInstance> drawn = drawn_instances(detections.instances, banks);
+  return write_picture(std::filesystem::path(options.picture_folder) / name,
+                       draw_detections(frame, drawn, std::nullopt, caption));
+}
+
+/// Detects in one image and adds what was found to `validation`.
+Status validate_image(const ValidationOptions& options, const DataSet& data, const ImageTargets& image,
+                      const SceneFiles& files, DetectionSession& session, Validation& validation) {
+  Result<LoadedFrame> file = load_bop_frame(files.scene, image.im_id);
+  if (!file.ok()) return file.status();
+  const DepthFrame frame = file.value().frame();
+  std::vector<Bank> banks;
+  for (const BopTarget& target : image.targets) {
+    banks.push_back(data.banks.banks[data.bank_index.at(target.obj_id)]);
+  }
+  DetectRequest request;
+  request.banks = banks;
+  if (!options.without_empty_bin && !file.value().empty_depth.empty()) request.empty_bin = file.value().empty_bin();
+  request.now_ns = &monotonic_ns;
+  DetectParameters parameters;
+  parameters.threads = options.threads;
+  Detections detections;
+  session.fit({frame.camera.width, frame.camera.height}, data.banks.banks, options.threads);
+  const std::int64_t start = monotonic_ns();
+  if (Status detected = session.run(frame, request, parameters, detections); !detected.ok()) return detected;
+  const double seconds = static_cast<double>(monotonic_ns() - start) * 1e-9;
+
+  for (const Instance& instance : detections.instances) {
+    validation.results.push_back({image.scene_id, image.im_id, static_cast<int>(banks[instance.bank].part->part_id),
+                                  instance.score, instance.camera_from_part, static_cast<float>(seconds)});
+  }
+  for (std::size_t i = 0; i < stage_count; ++i) {
+    validation.stage_seconds[i] +=
+        static_cast<double>(detections.stage_ns[i]) * 1e-9 / static_cast<double>(data.images.size());
+  }
+  ++validation.images;
+  if (files.annotated) {
+    validation.errors.push_back(image_errors(compared(image, files, detections, banks, seconds), frame, data.parts));
+  }
+  if (options.picture_folder.empty()) return {};
+  return draw(options, image, frame, detections, banks, seconds);
+}
+
 }  // namespace
 
 Result<Validation> validate(const ValidationOptions& options,
                             const std::function<void(float, const std::string&)>& progress) {
-  const Result<std::vector<BopTarget>> targets = read_bop_targets(options.root, options.split);
-  if (!targets.ok()) return targets.status();
-  std::set<int> wanted;
-  for (const BopTarget& target : targets.value()) wanted.insert(target.obj_id);
-  std::map<int, std::size_t> bank_index;
-  std::vector<std::string> bank_paths;
-  for (const int obj_id : wanted) {
-    bank_index[obj_id] = bank_paths.size();
-    bank_paths.push_back((std::filesystem::path(options.bank_folder) / numbered("obj_", obj_id, ".bank")).string());
-  }
-  const Result<LoadedBanks> loaded = load_banks(bank_paths);
-  if (!loaded.ok()) return loaded.status();
-  const std::vector<Bank>& all_banks = loaded.value().banks;
-  const Result<std::vector<EvaluationPart>> parts = evaluation_parts(options, wanted);
-  if (!parts.ok()) return parts.status();
-
+  const Result<DataSet> opened = open_data_set(options);
+  if (!opened.ok()) return opened.status();
+  const DataSet& data = opened.value();
   Validation validation;
-  for (const auto& [obj_id, index] : bank_index) {
-    if (all_banks[index].part->part_id != static_cast<std::uint32_t>(obj_id)) {
-      return Status::format(StatusCode::bad_bank, "%s: is of part number %u, not %d; compile it with --bop",
-                            bank_paths[index].c_str(), all_banks[index].part->part_id, obj_id);
-    }
-    validation.part_names.emplace_back(static_cast<std::uint32_t>(obj_id), all_banks[index].part->name_view());
+  for (const auto& [obj_id, index] : data.bank_index) {
+    validation.part_names.emplace_back(static_cast<std::uint32_t>(obj_id), data.banks.banks[index].part->name_view());
   }
-  DetectParameters parameters;
-  parameters.threads = options.threads;
-  std::unique_ptr<DetectionSession> session;
-  FrameLimits limits;
+  DetectionSession session;
   std::map<int, SceneFiles> scenes;
-  const std::vector<ImageTargets> images = by_image(targets.value());
-  for (const ImageTargets& image : images) {
-    progress(static_cast<float>(validation.images) / static_cast<float>(images.size()),
+  for (const ImageTargets& image : data.images) {
+    progress(static_cast<float>(validation.images) / static_cast<float>(data.images.size()),
              "scene " + std::to_string(image.scene_id) + ", image " + std::to_string(image.im_id));
     if (scenes.count(image.scene_id) == 0) {
       Result<SceneFiles> files = read_scene(options, image.scene_id);
       if (!files.ok()) return files.status();
       scenes[image.scene_id] = std::move(files).value();
     }
-    const SceneFiles& files = scenes[image.scene_id];
-    Result<LoadedFrame> file = load_bop_frame(files.scene, image.im_id);
-    if (!file.ok()) return file.status();
-    const DepthFrame frame = file.value().frame();
-    if (session == nullptr || frame.camera.width > limits.maximum_width ||
-        frame.camera.height > limits.maximum_height) {
-      limits = {std::max(limits.maximum_width, frame.camera.width),
-                std::max(limits.maximum_height, frame.camera.height)};
-      session = std::make_unique<DetectionSession>(limits, all_banks, options.threads);
-    }
-
-    std::vector<Bank> banks;
-    for (const BopTarget& target : image.targets) banks.push_back(all_banks[bank_index[target.obj_id]]);
-    DetectRequest request;
-    request.banks = banks;
-    if (!options.without_empty_bin && !file.value().empty_depth.empty()) request.empty_bin = file.value().empty_bin();
-    request.now_ns = &monotonic_ns;
-    Detections detections;
-    const std::int64_t start = monotonic_ns();
-    if (Status detected = session->run(frame, request, parameters, detections); !detected.ok()) return detected;
-    const double seconds = static_cast<double>(monotonic_ns() - start) * 1e-9;
-
-    for (const Instance& instance : detections.instances) {
-      validation.results.push_back({image.scene_id, image.im_id, static_cast<int>(banks[instance.bank].part->part_id),
-                                    instance.score, instance.camera_from_part, static_cast<float>(seconds)});
-    }
-    for (std::size_t i = 0; i < stage_count; ++i) {
-      validation.stage_seconds[i] +=
-          static_cast<double>(detections.stage_ns[i]) * 1e-9 / static_cast<double>(images.size());
-    }
-    ++validation.images;
-    if (files.annotated) {
-      validation.errors.push_back(
-          image_errors(compared(image, files, detections, banks, seconds), frame, parts.value()));
-    }
+    Status status = validate_image(options, data, image, scenes[image.scene_id], session, validation);
+    if (!status.ok()) return status;
   }
   return validation;
 }

@@ -15,9 +15,10 @@ namespace graspd {
 
 /// What `graspd validate` is asked for.
 struct ValidationOptions {
-  std::string root;         ///< A BOP data set.
-  std::string split;        ///< Its folder of scenes and the first word of its targets file.
-  std::string bank_folder;  ///< Holds obj_000001.bank and so on.
+  std::string root;            ///< A BOP data set.
+  std::string split;           ///< Its folder of scenes and the first word of its targets file.
+  std::string bank_folder;     ///< Holds obj_000001.bank and so on.
+  std::string picture_folder;  ///< Where annotated pictures go; empty: nowhere.
   int threads = 1;
   bool without_empty_bin = false;  ///< Do not use the scenes' empty frames.
 };
