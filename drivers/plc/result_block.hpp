@@ -39,7 +39,7 @@ struct ResultBlock {
   std::uint16_t request_id = 0;
   ResultCode code = ResultCode::internal;
   ResultReason reason = ResultReason::none;
-  std::uint16_t flags = 0;  ///< Bits as in DetectionFlag.
+  std::uint16_t flags = 0;  ///< As result_flags() makes them.
   std::uint16_t part = 0;
   std::uint16_t view = 0;
   std::uint16_t grasp = 0;

@@ -192,11 +192,13 @@ TEST(ResultReasons, CoverEveryRejection) {
   }
 }
 
-TEST(ResultFlags, AreThoseOfTheDetection) {
-  EXPECT_EQ(unsigned{flag_scene_points_cut}, 1U);
-  EXPECT_EQ(unsigned{flag_hypotheses_cut}, 2U);
-  EXPECT_EQ(unsigned{flag_instances_cut}, 4U);
-  EXPECT_EQ(unsigned{flag_deadline}, 8U);
+TEST(ResultFlags, KeepDetectionAndPickApart) {
+  EXPECT_EQ(result_flags(flag_scene_points_cut, 0), 1U);
+  EXPECT_EQ(result_flags(flag_hypotheses_cut, 0), 2U);
+  EXPECT_EQ(result_flags(flag_instances_cut, 0), 4U);
+  EXPECT_EQ(result_flags(flag_deadline, 0), 8U);
+  EXPECT_EQ(result_flags(0, flag_grasps_cut), 16U);
+  EXPECT_EQ(result_flags(flag_deadline, flag_picks_cut), 40U);
 }
 
 }  // namespace
