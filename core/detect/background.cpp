@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/detect/parallel_for.hpp"
+
 namespace graspd {
 
 namespace {
@@ -106,8 +108,7 @@ void remove_background_by_frame(SceneMap& empty_bin, float margin, int threads, 
   for (MapCell& cell : empty_bin.cells) cell.background = cell.point.z();
   for (int v = 0; v < empty_bin.camera.height; ++v) bridge_line(empty_bin, true, v);
   for (int u = 0; u < empty_bin.camera.width; ++u) bridge_line(empty_bin, false, u);
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (int v = 0; v < map.camera.height; ++v) {
+  parallel_for(map.camera.height, threads, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       cell.background = nearest_background(empty_bin, u, v);
@@ -115,7 +116,7 @@ void remove_background_by_frame(SceneMap& empty_bin, float margin, int threads, 
       const bool stands_out = cell.background <= 0.0F || cell.point.z() < cell.background - margin;
       if (!stands_out) cell.foreground = 0;
     }
-  }
+  });
 }
 
 SupportPlane remove_background_by_plane(float margin, int threads, SceneMap& map) {
@@ -151,8 +152,7 @@ SupportPlane remove_background_by_plane(float margin, int threads, SceneMap& map
   if (!best.found) return best;
   for (int round = 0; round < 3; ++round) best = polished(best, samples, margin);
 
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (int v = 0; v < map.camera.height; ++v) {
+  parallel_for(map.camera.height, threads, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       const Vector3 ray = map.camera.point(static_cast<float>(u), static_cast<float>(v), 1.0F);
@@ -160,21 +160,20 @@ SupportPlane remove_background_by_plane(float margin, int threads, SceneMap& map
       if (slope < -1e-3F) cell.background = best.offset / slope;
       if (cell.measured() && best.height(cell.point) < margin) cell.foreground = 0;
     }
-  }
+  });
   return best;
 }
 
 void remove_background_by_box(const RigidTransform& box_from_camera, const Vector3& half_size, int threads,
                               SceneMap& map) {
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (int v = 0; v < map.camera.height; ++v) {
+  parallel_for(map.camera.height, threads, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       if (!cell.measured()) continue;
       const Vector3 point = box_from_camera * cell.point;
       if ((point.cwiseAbs().array() > half_size.array()).any()) cell.foreground = 0;
     }
-  }
+  });
 }
 
 }  // namespace graspd

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/detect/consistency.hpp"
+#include "core/detect/parallel_for.hpp"
 
 namespace graspd {
 
@@ -133,10 +134,9 @@ void cluster_hypotheses(std::span<const Hypothesis> hypotheses, const Bank& bank
 
 void keep_plausible(const SceneMap& map, const Bank& bank, int count, int threads, FixedVector<PoseCluster>& clusters) {
   constexpr int points = 100;
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 16)
-  for (std::size_t k = 0; k < clusters.size(); ++k) {
+  parallel_for(clusters.size(), threads, 16, [&](std::size_t k) {
     clusters[k].score = scene_consistency(map, bank, clusters[k].camera_from_part, points, bank.part->sampling).score();
-  }
+  });
   std::sort(clusters.begin(), clusters.end(), [](const PoseCluster& a, const PoseCluster& b) {
     return a.score != b.score ? a.score > b.score : a.rank < b.rank;
   });

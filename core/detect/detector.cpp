@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/detect/parallel_for.hpp"
 #include "core/detect/refine.hpp"
 #include "core/detect/verify.hpp"
 
@@ -85,12 +86,11 @@ void judge_clusters(const Scene& scene, const DetectRequest& request, std::uint3
   const std::size_t count = std::min(workspace.clusters.size(), workspace.judged.capacity() - first);
   if (count < workspace.clusters.size()) detections.flags |= flag_hypotheses_cut;
   workspace.judged.assume_size(first + count);
-#pragma omp parallel for num_threads(parameters.threads) schedule(dynamic, 2)
-  for (std::size_t i = 0; i < count; ++i) {
+  parallel_for(count, parameters.threads, 2, [&](std::size_t i) {
     const std::span<float> image = workspace.rendering[static_cast<std::size_t>(omp_get_thread_num())];
     workspace.judged[first + i] =
         judge(scene, request.banks[bank_index], bank_index, workspace.clusters[i], parameters, image);
-  }
+  });
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/detect/parallel_for.hpp"
+
 namespace graspd {
 
 namespace {
@@ -160,8 +162,7 @@ void match(const NeighbourGrid& scene, const Bank& bank, const MatchParameters& 
   while ((scene.points.size() / step + 1) * per_reference > workspace.slots.size()) ++step;
   const std::size_t references = (scene.points.size() + step - 1) / step;
 
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 8)
-  for (std::size_t i = 0; i < references; ++i) {
+  parallel_for(references, threads, 8, [&](std::size_t i) {
     VotingScratch& scratch = workspace.threads[static_cast<std::size_t>(omp_get_thread_num())];
     std::fill_n(scratch.accumulator.begin(), bank.reference_points.size() * alpha_bins, std::uint16_t{0});
     if (++scratch.epoch == 0) {
@@ -179,7 +180,7 @@ void match(const NeighbourGrid& scene, const Bank& bank, const MatchParameters& 
           pose_from_alpha(reference, model_reference(bank, r), peak_alpha(peaks[k], scratch)), peaks[k].votes,
           bank.reference_views[r]};
     }
-  }
+  });
   for (std::size_t i = 0; i < references; ++i) {
     for (std::size_t k = 0; k < workspace.slots_used[i]; ++k)
       hypotheses.push_back(workspace.slots[i * per_reference + k]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/detect/parallel_for.hpp"
+
 namespace graspd {
 
 namespace {
@@ -159,8 +161,7 @@ SceneMap make_scene_map(const Camera& camera, int stride, std::span<MapCell> sto
 
 void bin_frame(const DepthFrame& frame, int threads, SceneMap& map) {
   const int enough = std::max(1, map.stride * map.stride / 3);
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (int v = 0; v < map.camera.height; ++v) {
+  parallel_for(map.camera.height, threads, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       cell = MapCell{};
@@ -170,27 +171,24 @@ void bin_frame(const DepthFrame& frame, int threads, SceneMap& map) {
       const DepthRange range = all.high - all.low <= step ? all : larger_surface(frame, map.stride, u, v, step);
       if (range.count >= enough) cell.point = mean_point(frame, map.stride, u, v, range);
     }
-  }
+  });
   // Support is judged on the map as it was, so cells are marked first and emptied afterwards.
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (int v = 0; v < map.camera.height; ++v) {
+  parallel_for(map.camera.height, threads, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       cell.foreground = cell.measured() && supported(map, u, v) ? 1 : 0;
     }
-  }
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (int v = 0; v < map.camera.height; ++v) {
+  });
+  parallel_for(map.camera.height, threads, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       if (cell.foreground == 0) cell.point.setZero();
     }
-  }
+  });
 }
 
 void fit_normals(int radius, int threads, SceneMap& map) {
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 8)
-  for (int v = 0; v < map.camera.height; ++v) {
+  parallel_for(map.camera.height, threads, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       if (cell.foreground == 0) continue;
@@ -204,7 +202,7 @@ void fit_normals(int radius, int threads, SceneMap& map) {
       // A cell seen from behind its fitted plane is no surface that the sensor could have measured.
       if (cell.normal.dot(cell.point) >= 0.0F) cell.normal.setZero();
     }
-  }
+  });
 }
 
 }  // namespace graspd
