@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/evaluate/image_evaluation.hpp"
+#include "core/status.hpp"
+
+namespace graspd {
+
+/// The parts of a BOP data set as errors are measured on them: the meshes of `root`/models_eval where
+/// the data set has that folder, else of `root`/models. Fails with bad_file as read_bop_models does.
+[[nodiscard]] Result<std::vector<EvaluationPart>> read_evaluation_parts(const std::filesystem::path& root);
+
+/// What is asked and true in each image of `root`/`split`_targets_bop19.json, by scene and image, with
+/// no estimates yet; `truths` is empty where a scene has no scene_gt.json. The level comes from
+/// scene_meta.json where there is one. Fails with bad_file.
+[[nodiscard]] Result<std::vector<EvaluationImage>> read_evaluation_images(const std::filesystem::path& root,
+                                                                          const std::string& split);
+
+}  // namespace graspd
