@@ -11,7 +11,8 @@ namespace graspd {
 
 namespace {
 
-/// Bridges the gaps of one line of the image, from valid neighbour to valid neighbour.
+/// Bridges the gaps of one line of the image with the nearer of the depths at their ends: in the shadow of
+/// a wall anything down to its rim may be wall.
 void bridge_line(SceneMap& map, bool along_rows, int line) {
   const int length = along_rows ? map.camera.width : map.camera.height;
   const auto depth = [&](int i) -> float& {
@@ -20,10 +21,8 @@ void bridge_line(SceneMap& map, bool along_rows, int line) {
   int last = -1;
   for (int i = 0; i < length; ++i) {
     if (depth(i) <= 0.0F) continue;
-    for (int gap = last + 1; gap < i; ++gap) {
-      const float share = last < 0 ? 1.0F : static_cast<float>(gap - last) / static_cast<float>(i - last);
-      depth(gap) = last < 0 ? depth(i) : depth(last) + share * (depth(i) - depth(last));
-    }
+    const float nearest = last < 0 ? depth(i) : std::min(depth(last), depth(i));
+    for (int gap = last + 1; gap < i; ++gap) depth(gap) = nearest;
     last = i;
   }
   for (int i = last + 1; last >= 0 && i < length; ++i) depth(i) = depth(last);
@@ -106,14 +105,15 @@ SupportPlane polished(const SupportPlane& plane, std::span<const Vector3> sample
 
 void remove_background_by_frame(SceneMap& empty_bin, float margin, int threads, SceneMap& map) {
   for (MapCell& cell : empty_bin.cells) cell.background = cell.point.z();
+  for (std::size_t i = 0; i < map.cells.size(); ++i) map.cells[i].background = empty_bin.cells[i].point.z();
   for (int v = 0; v < empty_bin.camera.height; ++v) bridge_line(empty_bin, true, v);
   for (int u = 0; u < empty_bin.camera.width; ++u) bridge_line(empty_bin, false, u);
   parallel_for(map.camera.height, threads, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
-      cell.background = nearest_background(empty_bin, u, v);
       if (!cell.measured()) continue;
-      const bool stands_out = cell.background <= 0.0F || cell.point.z() < cell.background - margin;
+      const float background = nearest_background(empty_bin, u, v);
+      const bool stands_out = background <= 0.0F || cell.point.z() < background - margin;
       if (!stands_out) cell.foreground = 0;
     }
   });

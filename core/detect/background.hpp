@@ -17,7 +17,8 @@ struct SupportPlane {
 };
 
 /// Marks as background what does not stand out from the map of the empty bin, and writes the depth of
-/// the background into every cell of `map`. Unmeasured cells of the empty bin are bridged.
+/// the background into the cells of `map` where the empty bin was measured. Where it was not, what
+/// stands out is told by bridging the gap.
 void remove_background_by_frame(SceneMap& empty_bin, float margin, int threads, SceneMap& map);
 
 /// Finds the dominant plane behind which next to nothing is measured, and marks what does not stand

@@ -132,14 +132,18 @@ void cluster_hypotheses(std::span<const Hypothesis> hypotheses, const Bank& bank
   }
 }
 
+void sort_by_score(FixedVector<PoseCluster>& clusters) {
+  std::sort(clusters.begin(), clusters.end(), [](const PoseCluster& a, const PoseCluster& b) {
+    return a.score != b.score ? a.score > b.score : a.rank < b.rank;
+  });
+}
+
 void keep_plausible(const SceneMap& map, const Bank& bank, int count, int threads, FixedVector<PoseCluster>& clusters) {
   constexpr int points = 100;
   parallel_for(clusters.size(), threads, 16, [&](std::size_t k) {
     clusters[k].score = scene_consistency(map, bank, clusters[k].camera_from_part, points, bank.part->sampling).score();
   });
-  std::sort(clusters.begin(), clusters.end(), [](const PoseCluster& a, const PoseCluster& b) {
-    return a.score != b.score ? a.score > b.score : a.rank < b.rank;
-  });
+  sort_by_score(clusters);
   clusters.truncate(static_cast<std::size_t>(std::max(count, 0)));
 }
 

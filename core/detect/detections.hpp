@@ -12,7 +12,7 @@ namespace graspd {
 /// Why a hypothesis was rejected (paper 2.4.2), in the order in which the tests run.
 enum class Rejection : std::uint8_t {
   none,
-  weak,          ///< Too little of the model confirmed even before refinement.
+  weak,          ///< Too little of the model was measured to judge it.
   overlap,       ///< Overlap testing: too little of the visible model surface confirmed.
   boundary,      ///< Boundary testing: model where the scene shows free space.
   edge,          ///< Edge consistency testing.
@@ -32,11 +32,12 @@ struct Evidence {
   float overlap = 0;    ///< Confirmed share of the surface that should be seen and was measured.
   float visible = 0;    ///< Confirmed share of all the surface that faces the sensor from this pose.
   float purity = 0;     ///< Confirmed share of the surface for or against which the scene speaks.
+  float measured = 0;   ///< Share of that surface for which the sensor saw anything.
   float boundary = 0;   ///< Share of the model that stands where the scene shows free space.
   float edge = 0;       ///< Share of the decided outline that agrees with the scene.
   float below = 0;      ///< Share of the model below the plane or inside accepted instances.
-  float residual = 0;   ///< Root mean square distance of confirmed points (metres).
-  float confirmed = 0;  ///< Cells of the organised map that confirm the model.
+  float residual = 0;   ///< Root mean square distance of confirmed points, in voxels of the bank.
+  float confirmed = 0;  ///< Area that confirms the model, in voxel faces of the bank seen from the sensor.
 };
 
 /// A part found, or a hypothesis that was rejected.

@@ -71,12 +71,13 @@ Instance judge(const Scene& scene, const Bank& bank, std::uint32_t bank_index, c
   instance.bank = bank_index;
   instance.view = cluster.view;
   instance.votes = cluster.votes;
-  instance.camera_from_part = refine_pose(scene.map, bank, cluster.camera_from_part, parameters.refine);
+  instance.camera_from_part = refine_finely(scene.map, scene.edges, bank, cluster.camera_from_part, parameters.refine);
   const RenderedModel model = render_model(scene.map, bank, instance.camera_from_part, image.first(image.size() / 2),
                                            image.subspan(image.size() / 2));
   instance.evidence = gather_evidence(scene.map, bank, model, parameters.verify, {});
   instance.score = score_of(instance.evidence);
-  if (parameters.verify.tests) instance.rejection = failed_test(instance.evidence, bank.part->thresholds);
+  if (parameters.verify.tests)
+    instance.rejection = failed_test(instance.evidence, parameters.verify, bank.part->thresholds);
   return instance;
 }
 
@@ -127,11 +128,14 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
 
     cluster_hypotheses(workspace.hypotheses.span(), bank, parameters.cluster, workspace.cluster, workspace.clusters);
     if (workspace.clusters.dropped() > 0) detections.flags |= flag_hypotheses_cut;
-    keep_plausible(scene.map, bank, parameters.cluster.judged, parameters.threads, workspace.clusters);
+    keep_plausible(scene.map, bank, parameters.cluster.plausible, parameters.threads, workspace.clusters);
     clock.end_of(Stage::cluster);
 
-    judge_clusters(scene, request, b, parameters, workspace, detections);
+    refine_coarsely(scene.map, scene.edges, bank, parameters.refine, parameters.threads, workspace.clusters);
     clock.end_of(Stage::refine);
+
+    judge_clusters(scene, request, b, parameters, workspace, detections);
+    clock.end_of(Stage::verify);
     if (late(request)) {
       detections.flags |= flag_deadline;
       break;

@@ -35,21 +35,29 @@ struct MatchParameters {
 struct ClusterParameters {
   float rotation = 0.26F;    ///< Radians.
   float translation = 3.0F;  ///< Voxels.
-  int judged = 250;          ///< Clusters that go on to refinement, for one part.
+  int plausible = 500;       ///< Clusters that go on to refinement, for one part.
 };
 
-/// Iterative closest point against the organised map.
+/// Iterative closest point against the organised map, coarse for all plausible clusters, then fine for
+/// those that agree best with the scene.
 struct RefineParameters {
-  int iterations = 12;
-  int points = 300;         ///< Surface points that take part.
-  float first_gate = 2.0F;  ///< Voxels: correspondences further apart are ignored in the first iteration,
-  float last_gate = 0.5F;   ///< and in the last.
+  int coarse_iterations = 6;
+  int coarse_points = 120;   ///< Surface points that take part.
+  float first_gate = 2.0F;   ///< Voxels: correspondences further apart are ignored in the first iteration.
+  float coarse_gate = 1.0F;  ///< The same in the last coarse iteration
+  float last_gate = 0.4F;    ///< and in the last of all.
+  int fine_iterations = 6;
+  int fine_points = 400;
+  float same_rotation = 0.1F;     ///< Radians: coarse poses this close and
+  float same_translation = 1.0F;  ///< this close (voxels) are one.
+  int judged = 200;               ///< Poses that are refined to the end and verified, for one part.
 };
 
 /// Verification (paper 2.4.2); the thresholds come from the bank.
 struct VerifyParameters {
-  bool tests = true;       ///< False: only the score decides (ablation).
-  float tolerance = 0.4F;  ///< Voxels: a model surface this close to the measured one is confirmed.
+  bool tests = true;              ///< False: only the score decides (ablation).
+  float tolerance = 0.4F;         ///< Voxels: a model surface this close to the measured one is confirmed.
+  float minimum_measured = 0.3F;  ///< Share of the model that must have been measured at all to be judged.
 };
 
 /// Bounds on what one detection may hold; they fix the memory of a workspace.
@@ -60,7 +68,7 @@ struct DetectCapacity {
   std::uint32_t scene_points = 20000;
   std::uint32_t hypotheses = 40000;  ///< Peaks of the voting, over all references and views of one part.
   std::uint32_t clusters = 6000;
-  std::uint32_t judged = 600;               ///< Hypotheses that are refined and verified, over all parts.
+  std::uint32_t judged = 1600;              ///< Hypotheses that are refined and verified, over all parts.
   std::uint32_t instances = 100;            ///< Accepted, over all parts.
   std::uint32_t maximum_references = 8192;  ///< References of all views of one bank.
   std::uint32_t maximum_cells = 65536;      ///< Cells of one bank's PPF grid.

@@ -42,6 +42,7 @@ PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacit
   workspace.empty_cells = arena.take<MapCell>(cells, "scene map");
   workspace.segments.parent = arena.take<std::uint32_t>(cells, "segmentation");
   workspace.segments.size = arena.take<std::uint32_t>(cells, "segmentation");
+  workspace.edges.nearest = arena.take<std::uint32_t>(cells, "edges");
   workspace.sampling.keys = arena.take<VoxelKey>(cells, "sampling");
   workspace.sampling.scratch = arena.take<VoxelKey>(cells, "sampling");
   workspace.samples = FixedVector(arena.take<OrientedPoint>(capacity.scene_points, "sampling"));
@@ -73,6 +74,9 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float sam
   }
   const int radius = std::clamp(static_cast<int>(std::lround(0.5F * parameters.cells_per_voxel)), 1, 4);
   fit_normals(radius, threads, scene.map);
+
+  scene.edges = {workspace.edges.nearest.first(scene.map.cells.size())};
+  find_depth_edges(scene.map, static_cast<int>(2.0F * parameters.cells_per_voxel), scene.edges);
 
   for (const float depth : frame.depth) scene.measured_pixels += depth > 0.0F ? 1 : 0;
   for (const MapCell& cell : scene.map.cells) scene.foreground_cells += cell.foreground != 0 ? 1 : 0;

@@ -2,6 +2,7 @@
 
 #include "core/bank/bank.hpp"
 #include "core/detect/background.hpp"
+#include "core/detect/depth_edges.hpp"
 #include "core/detect/neighbour_grid.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/detect/sampling.hpp"
@@ -15,6 +16,7 @@ namespace graspd {
 /// The scene as the stages after the preprocessing see it.
 struct Scene {
   SceneMap map;
+  DepthEdges edges;
   SupportPlane plane;
   std::uint32_t measured_pixels = 0;
   std::uint32_t foreground_cells = 0;
@@ -24,6 +26,7 @@ struct PreprocessWorkspace {
   std::span<MapCell> map_cells;
   std::span<MapCell> empty_cells;
   SegmentWorkspace segments;
+  DepthEdges edges;
   SamplingWorkspace sampling;
   FixedVector<OrientedPoint> samples;
   NeighbourGridStorage grid;
@@ -31,8 +34,9 @@ struct PreprocessWorkspace {
 
 [[nodiscard]] PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacity& capacity);
 
-/// Bins the frame, removes the background, splits the rest into segments and fits normals (paper
-/// 2.4.1), at a resolution that suits a part sampled at `sampling` metres. `empty_bin` may have no depth.
+/// Bins the frame, removes the background, splits the rest into segments, fits normals and
+/// finds edges (paper 2.4.1), at a resolution that suits a part sampled at `sampling` metres. `empty_bin` may have no
+/// depth.
 [[nodiscard]] Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float sampling,
                                const PreprocessParameters& parameters, int threads, PreprocessWorkspace& workspace);
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/detect/consistency.hpp"
+#include "core/detect/parallel_for.hpp"
 #include "core/detect/visible_surface.hpp"
 
 namespace graspd {
@@ -15,6 +17,7 @@ using Vector6 = Eigen::Matrix<float, 6, 1>;
 
 constexpr float compatible_normal = 0.5F;
 constexpr int fewest_pairs = 10;
+constexpr float edge_weight = 0.5F;
 
 /// The normal equations of one iteration; turns are about the part's centre, in units of its radius, so
 /// that turns and shifts weigh alike.
@@ -24,8 +27,22 @@ struct NormalEquations {
   int pairs = 0;
 };
 
-NormalEquations accumulate(const SceneMap& map, const Bank& bank, const RigidTransform& pose, int points, float gate) {
-  NormalEquations equations;
+/// Adds one correspondence: the point should move by `distance` along `direction`.
+void add_row(const Vector3& arm, const Vector3& direction, float distance, float weight, NormalEquations& equations) {
+  Vector6 row;
+  row.head<3>() = arm.cross(direction);
+  row.tail<3>() = direction;
+  equations.hessian.noalias() += weight * row * row.transpose();
+  equations.gradient += weight * distance * row;
+}
+
+float tukey(float squared, float gate) {
+  const float share = std::max(0.0F, 1.0F - squared / (gate * gate));
+  return share * share;
+}
+
+void accumulate_surface(const SceneMap& map, const Bank& bank, const RigidTransform& pose, int points, float gate,
+                        NormalEquations& equations) {
   const Vector3 centre = pose * bank.part->centre;
   const float inverse_radius = 2.0F / bank.part->diameter;
   for_each_visible(bank, pose, points, [&](const SurfacePoint& surface) {
@@ -35,16 +52,34 @@ NormalEquations accumulate(const SceneMap& map, const Bank& bank, const RigidTra
     const Vector3 gap = cell->point - point;
     const float squared = gap.squaredNorm();
     if (squared > gate * gate || cell->normal.dot(pose.rotation * surface.normal) < compatible_normal) return;
-    const float share = 1.0F - squared / (gate * gate);
-    const float weight = share * share;
-    Vector6 row;
-    row.head<3>() = (point - centre).cross(cell->normal) * inverse_radius;
-    row.tail<3>() = cell->normal;
-    equations.hessian.noalias() += weight * row * row.transpose();
-    equations.gradient += weight * cell->normal.dot(gap) * row;
+    add_row((point - centre) * inverse_radius, cell->normal, cell->normal.dot(gap), tukey(squared, gate), equations);
     ++equations.pairs;
   });
-  return equations;
+}
+
+/// Draws the edges of the part to where the scene falls away: across the edge, in the plane that faces
+/// the sensor. Surfaces alone do not hold a flat part in its plane.
+void accumulate_edges(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RigidTransform& pose,
+                      int points, float gate, NormalEquations& equations) {
+  const Vector3 centre = pose * bank.part->centre;
+  const float inverse_radius = 2.0F / bank.part->diameter;
+  const std::size_t step = std::max<std::size_t>(1, bank.edges.size() / static_cast<std::size_t>(std::max(points, 1)));
+  for (std::size_t i = 0; i < bank.edges.size(); i += step) {
+    const Vector3 point = pose * bank.edges[i].position;
+    const MapCell* cell = map.look_up(point);
+    if (cell == nullptr) continue;
+    const std::uint32_t nearest = edges.nearest[static_cast<std::size_t>(cell - map.cells.data())];
+    if (nearest == no_edge) continue;
+    const Vector3 gap = map.cells[nearest].point - point;
+    if (gap.squaredNorm() > gate * gate) continue;
+    const Vector3 across = point.cross(pose.rotation * bank.edges[i].tangent);
+    const float length = across.norm();
+    // An edge that points at the sensor has no side to be drawn to.
+    if (length < 0.3F * point.norm()) continue;
+    const Vector3 direction = across / length;
+    add_row((point - centre) * inverse_radius, direction, direction.dot(gap),
+            edge_weight * tukey(gap.squaredNorm(), gate), equations);
+  }
 }
 
 RigidTransform step_from(const Vector6& solution, const Vector3& centre, float radius) {
@@ -58,24 +93,64 @@ RigidTransform step_from(const Vector6& solution, const Vector3& centre, float r
 
 }  // namespace
 
-RigidTransform refine_pose(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part,
-                           const RefineParameters& parameters) {
+RigidTransform refine_pose(const SceneMap& map, const DepthEdges& edges, const Bank& bank,
+                           const RigidTransform& camera_from_part, const IcpSchedule& schedule) {
   RigidTransform pose = camera_from_part;
-  const float voxel = bank.part->sampling;
   const float radius = 0.5F * bank.part->diameter;
-  for (int iteration = 0; iteration < parameters.iterations; ++iteration) {
-    const float progress = static_cast<float>(iteration) / static_cast<float>(std::max(parameters.iterations - 1, 1));
-    const float gate = voxel * parameters.first_gate * std::pow(parameters.last_gate / parameters.first_gate, progress);
-    const NormalEquations equations = accumulate(map, bank, pose, parameters.points, gate);
+  const auto steps = static_cast<float>(std::max(schedule.iterations - 1, 1));
+  for (int iteration = 0; iteration < schedule.iterations; ++iteration) {
+    const float progress = static_cast<float>(iteration) / steps;
+    const float gate = schedule.first_gate * std::pow(schedule.last_gate / schedule.first_gate, progress);
+    NormalEquations equations;
+    accumulate_surface(map, bank, pose, schedule.points, gate, equations);
     if (equations.pairs < fewest_pairs) break;
+    accumulate_edges(map, edges, bank, pose, schedule.points, gate, equations);
     Matrix6 damped = equations.hessian;
     damped.diagonal().array() += 0.01F * equations.hessian.trace() / 6.0F;
     const Vector6 solution = damped.ldlt().solve(equations.gradient);
     pose = step_from(solution, pose * bank.part->centre, radius) * pose;
-    if (solution.norm() < 1e-3F * voxel && gate <= parameters.last_gate * voxel * 1.01F) break;
   }
   pose.rotation = orthonormalised(pose.rotation);
   return pose;
+}
+
+void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
+                     int threads, FixedVector<PoseCluster>& clusters) {
+  const float voxel = bank.part->sampling;
+  const IcpSchedule schedule{parameters.coarse_iterations, parameters.coarse_points, parameters.first_gate * voxel,
+                             parameters.coarse_gate * voxel};
+  parallel_for(clusters.size(), threads, 4, [&](std::size_t k) {
+    PoseCluster& cluster = clusters[k];
+    cluster.camera_from_part = refine_pose(map, edges, bank, cluster.camera_from_part, schedule);
+    cluster.score =
+        scene_consistency(map, bank, cluster.camera_from_part, 2 * parameters.coarse_points, 0.6F * voxel).score();
+  });
+  sort_by_score(clusters);
+
+  const Symmetry symmetry = bank.symmetry();
+  const float reach = parameters.same_translation * voxel;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < clusters.size() && kept < static_cast<std::size_t>(parameters.judged); ++k) {
+    const Vector3 centre = clusters[k].camera_from_part * bank.part->centre;
+    bool met = false;
+    for (std::size_t other = 0; other < kept && !met; ++other) {
+      const RigidTransform& better = clusters[other].camera_from_part;
+      if ((better * bank.part->centre - centre).squaredNorm() > reach * reach) continue;
+      const PoseDistance distance = pose_distance(clusters[k].camera_from_part, better, symmetry, bank.part->centre);
+      met = distance.rotation < parameters.same_rotation;
+      if (met) clusters[other].votes += clusters[k].votes;
+    }
+    if (!met) clusters[kept++] = clusters[k];
+  }
+  clusters.truncate(kept);
+}
+
+RigidTransform refine_finely(const SceneMap& map, const DepthEdges& edges, const Bank& bank,
+                             const RigidTransform& camera_from_part, const RefineParameters& parameters) {
+  const float voxel = bank.part->sampling;
+  return refine_pose(map, edges, bank, camera_from_part,
+                     {parameters.fine_iterations, parameters.fine_points, parameters.coarse_gate * voxel,
+                      parameters.last_gate * voxel});
 }
 
 }  // namespace graspd

@@ -1,17 +1,36 @@
 #pragma once
 
 #include "core/bank/bank.hpp"
+#include "core/detect/cluster.hpp"
+#include "core/detect/depth_edges.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/detect/scene_map.hpp"
+#include "core/memory/fixed_vector.hpp"
 
 namespace graspd {
 
+/// One run of ICP: the gate on correspondences shrinks from `first_gate` to `last_gate` (metres).
+struct IcpSchedule {
+  int iterations = 0;
+  int points = 0;  ///< Surface points that take part.
+  float first_gate = 0;
+  float last_gate = 0;
+};
+
 /// Point-to-plane ICP of the surface that the pose shows against the organised map (paper 2.4.2; the
-/// association is by projection). The gate on correspondences shrinks from iteration to iteration,
-/// residuals are weighted by Tukey's function, and directions that the scene does not determine (a turn
-/// about a symmetry axis, a slide along a plane) are damped. Returns the refined camera_from_part; the
-/// pose itself where too little of it was measured.
-[[nodiscard]] RigidTransform refine_pose(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part,
-                                         const RefineParameters& parameters);
+/// association is by projection), and of the part's edges against those of the scene. Residuals are weighted by Tukey's
+/// function, and directions that the scene does not determine (a turn about a symmetry axis, a slide along a plane) are
+/// damped. Returns the refined camera_from_part; the pose itself where too little of it was measured.
+[[nodiscard]] RigidTransform refine_pose(const SceneMap& map, const DepthEdges& edges, const Bank& bank,
+                                         const RigidTransform& camera_from_part, const IcpSchedule& schedule);
+
+/// Refines all clusters coarsely, rates them by their agreement with the scene, makes one of those that
+/// have met, and keeps the best, best first.
+void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
+                     int threads, FixedVector<PoseCluster>& clusters);
+
+/// The last iterations for a pose that was refined coarsely.
+[[nodiscard]] RigidTransform refine_finely(const SceneMap& map, const DepthEdges& edges, const Bank& bank,
+                                           const RigidTransform& camera_from_part, const RefineParameters& parameters);
 
 }  // namespace graspd

@@ -72,6 +72,9 @@ void judge_rim(const SceneMap& map, const RenderedModel& model, int u, int v, in
   const int beyond_u = map_u + 2 * du;
   const int beyond_v = map_v + 2 * dv;
   if (!map.camera.contains(beyond_u, beyond_v)) return;
+  // Beyond a narrow gap, such as one between teeth, the model itself goes on.
+  if (model.camera.contains(u + 2 * du, v + 2 * dv) && model.front[model.camera.index(u + 2 * du, v + 2 * dv)] > 0.0F)
+    return;
   const MapCell& inside = map.at(map_u, map_v);
   const MapCell& beyond = map.at(beyond_u, beyond_v);
   if (!beyond.measured()) return;
@@ -116,12 +119,14 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   float below = 0;
   float squares = 0;
   OutlineCount outline;
+  float depth_sum = 0;
   for (int v = 0; v < model.rectangle.height; ++v) {
     for (int u = 0; u < model.rectangle.width; ++u) {
       const std::size_t index = model.camera.index(u, v);
       const float front = model.front[index];
       if (front == 0.0F) continue;
       rendered += 1.0F;
+      depth_sum += front;
       const int map_u = model.rectangle.left + u;
       const int map_v = model.rectangle.top + v;
       const MapCell& cell = map.at(map_u, map_v);
@@ -152,23 +157,31 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   const float against = count(CellVerdict::behind) + count(CellVerdict::contradicted);
   const float measured = confirmed + against + count(CellVerdict::occluded);
   evidence.visible = confirmed / rendered;
+  evidence.measured = measured / rendered;
   evidence.overlap = measured > 0.0F ? confirmed / measured : 0.0F;
   evidence.purity = confirmed + against > 0.0F ? confirmed / (confirmed + against) : 0.0F;
   evidence.boundary = count(CellVerdict::behind) / rendered;
   evidence.below = below / rendered;
-  evidence.residual = confirmed > 0.0F ? std::sqrt(squares / confirmed) : 0.0F;
-  evidence.confirmed = confirmed;
+  evidence.residual = confirmed > 0.0F ? std::sqrt(squares / confirmed) / bank.part->sampling : 0.0F;
+  const float voxel_cells = bank.part->sampling / map.footprint(depth_sum / rendered);
+  evidence.confirmed = confirmed / (voxel_cells * voxel_cells);
   const int decided = outline.consistent + outline.inconsistent;
   evidence.edge = decided > 0 ? static_cast<float>(outline.consistent) / static_cast<float>(decided) : 1.0F;
   return evidence;
 }
 
 float score_of(const Evidence& evidence) {
-  const float seen = std::min(1.0F, evidence.visible / 0.3F);
-  return evidence.purity * std::sqrt(evidence.edge) * (0.5F + 0.5F * seen);
+  // A logistic regression over refined hypotheses of simulated bins, right or wrong by MSSD.
+  const auto log_odds = [](float share) { return std::log((share + 0.02F) / (1.02F - share)); };
+  const float sum = -0.8F + 0.9F * log_odds(evidence.visible) + 0.9F * log_odds(evidence.purity) +
+                    0.3F * log_odds(evidence.edge) - 16.0F * evidence.boundary - 18.0F * evidence.below -
+                    6.0F * evidence.residual;
+  return evidence.confirmed > 0.0F ? 1.0F / (1.0F + std::exp(-sum)) : 0.0F;
 }
 
-Rejection failed_test(const Evidence& evidence, const VerifyThresholds& thresholds) {
+Rejection failed_test(const Evidence& evidence, const VerifyParameters& parameters,
+                      const VerifyThresholds& thresholds) {
+  if (evidence.measured < parameters.minimum_measured) return Rejection::weak;
   if (evidence.overlap < thresholds.minimum_overlap) return Rejection::overlap;
   if (evidence.boundary > thresholds.maximum_boundary) return Rejection::boundary;
   if (evidence.edge < thresholds.minimum_edge) return Rejection::edge;

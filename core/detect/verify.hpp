@@ -34,6 +34,7 @@ struct RenderedModel {
 [[nodiscard]] float score_of(const Evidence& evidence);
 
 /// The first of the four tests of paper 2.4.2 that the evidence fails, or none.
-[[nodiscard]] Rejection failed_test(const Evidence& evidence, const VerifyThresholds& thresholds);
+[[nodiscard]] Rejection failed_test(const Evidence& evidence, const VerifyParameters& parameters,
+                                    const VerifyThresholds& thresholds);
 
 }  // namespace graspd
