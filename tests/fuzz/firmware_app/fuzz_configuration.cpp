@@ -1,0 +1,8 @@
+#include "firmware_app/configuration.hpp"
+#include "tests/fuzz/fuzz_target.hpp"
+#include "tests/fuzz/input_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static_cast<void>(graspd::read_configuration(graspd::fuzz::InputFile(data, size, ".toml").path()));
+  return 0;
+}
