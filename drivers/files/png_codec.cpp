@@ -120,7 +120,7 @@ Result<DepthImage> decode_depth_png(std::string_view bytes, std::string_view nam
   }
   if (bits != 16) {
     return Status::format(StatusCode::bad_file,
-                          "%.*s: a %d-bit grey PNG; depth must be 16-bit grey: export it with 16 bits",
+                          "%.*s: a grey PNG of %d bits; depth must be 16-bit grey: export it with 16 bits",
                           static_cast<int>(name.size()), name.data(), bits);
   }
 
