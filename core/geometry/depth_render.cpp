@@ -24,30 +24,46 @@ ScreenPoint to_screen(const Vector3& p, const Camera& camera) {
           inverse_z};
 }
 
-/// Widens [low, high] by where the edge crosses row `v`. The ends are put in one order first, so the
-/// two triangles that share an edge get the same crossing to the last bit and leave no gap.
-void cross_edge(ScreenPoint a, ScreenPoint b, double v, double& low, double& high) {
-  if (b.v < a.v || (b.v == a.v && b.u < a.u)) std::swap(a, b);
-  if (v < a.v || v > b.v) return;
-  if (a.v == b.v) {
-    low = std::min(low, a.u);
-    high = std::max(high, b.u);
-    return;
+/// An edge of a triangle, from its upper to its lower end. The ends are put in one order, so the two
+/// triangles that share an edge get the same crossings to the last bit and leave no gap.
+struct Edge {
+  Edge(ScreenPoint a, ScreenPoint b) {
+    if (b.v < a.v || (b.v == a.v && b.u < a.u)) std::swap(a, b);
+    upper_u = a.u;
+    upper_v = a.v;
+    lower_v = b.v;
+    slope = b.v > a.v ? (b.u - a.u) / (b.v - a.v) : 0.0;
+    left = std::min(a.u, b.u);
+    right = std::max(a.u, b.u);
   }
-  const double u = std::clamp(a.u + (v - a.v) * ((b.u - a.u) / (b.v - a.v)), std::min(a.u, b.u), std::max(a.u, b.u));
-  low = std::min(low, u);
-  high = std::max(high, u);
-}
+
+  /// Widens [low, high] by where the edge crosses row `v`.
+  void cross(double v, double& low, double& high) const {
+    if (v < upper_v || v > lower_v) return;
+    const bool level = upper_v == lower_v;
+    const double u = std::clamp(upper_u + (v - upper_v) * slope, left, right);
+    low = std::min(low, level ? left : u);
+    high = std::max(high, level ? right : u);
+  }
+
+  double upper_u, upper_v, lower_v, slope, left, right;
+};
 
 /// The first and last pixel centre in [low, high], cut to [0, size); first > last when there is none.
 std::pair<int, int> pixel_range(double low, double high, int size) {
   const double last = static_cast<double>(size) - 1.0;
   if (!(high >= 0.0) || !(low <= last)) return {0, -1};
-  return {static_cast<int>(std::ceil(std::max(low, 0.0))), static_cast<int>(std::floor(std::min(high, last)))};
+  // Neither end is negative here, so that cutting the fraction off rounds down, without a call of libm.
+  const double from = std::max(low, 0.0);
+  const int below = static_cast<int>(from);
+  return {below < from ? below + 1 : below, static_cast<int>(std::min(high, last))};
 }
 
 void fill_triangle(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c, const Camera& camera,
                    RenderedSurface surface, std::span<float> depth) {
+  const auto [top, bottom] = pixel_range(std::min({a.v, b.v, c.v}), std::max({a.v, b.v, c.v}), camera.height);
+  const auto [first, last] = pixel_range(std::min({a.u, b.u, c.u}), std::max({a.u, b.u, c.u}), camera.width);
+  if (top > bottom || first > last) return;
   const double area = (b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v);
   if (!(std::abs(area) > 1e-12)) return;
   const double step_u = ((b.inverse_z - a.inverse_z) * (c.v - a.v) - (c.inverse_z - a.inverse_z) * (b.v - a.v)) / area;
@@ -57,13 +73,11 @@ void fill_triangle(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint
   const auto farthest = static_cast<float>(std::min({a.inverse_z, b.inverse_z, c.inverse_z}));
   const auto gradient = static_cast<float>(step_u);
 
-  const auto [top, bottom] = pixel_range(std::min({a.v, b.v, c.v}), std::max({a.v, b.v, c.v}), camera.height);
+  const std::array<Edge, 3> edges{Edge(a, b), Edge(b, c), Edge(c, a)};
   for (int v = top; v <= bottom; ++v) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
-    cross_edge(a, b, v, low, high);
-    cross_edge(b, c, v, low, high);
-    cross_edge(c, a, v, low, high);
+    for (const Edge& edge : edges) edge.cross(v, low, high);
     const auto [left, right] = pixel_range(low, high, camera.width);
     const auto start = static_cast<float>(a.inverse_z + (v - a.v) * step_v + (left - a.u) * step_u);
     float* const row = depth.data() + camera.index(0, v);

@@ -29,7 +29,8 @@ struct EnlargedFrame {
 EnlargedFrame enlarge(const DepthFrame& frame) {
   constexpr int comfortable_width = 800;
   EnlargedFrame large;
-  large.factor = std::max(1, comfortable_width / std::max(frame.camera.width, 1));
+  const int width = std::max(frame.camera.width, 1);
+  large.factor = std::max(1, (comfortable_width + width / 2) / width);
   const auto factor = static_cast<float>(large.factor);
   const float shift = 0.5F * (factor - 1.0F);
   const Camera& small = frame.camera;
