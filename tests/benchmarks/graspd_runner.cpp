@@ -15,8 +15,7 @@ namespace graspd {
 
 struct GraspdRunner::Opened {
   LoadedBanks loaded;
-  FrameLimits limits;
-  std::unique_ptr<DetectionSession> session;
+  DetectionSession session;
 };
 
 GraspdRunner::GraspdRunner(std::unique_ptr<Opened> opened) : opened_(std::move(opened)) {}
@@ -36,17 +35,13 @@ Result<GraspdRunner> GraspdRunner::open(const std::string& bank_folder, std::spa
   }
   Result<LoadedBanks> loaded = load_banks(paths);
   if (!loaded.ok()) return loaded.status();
-  return GraspdRunner(std::make_unique<Opened>(Opened{std::move(loaded).value(), {}, nullptr}));
+  return GraspdRunner(std::make_unique<Opened>(Opened{std::move(loaded).value(), {}}));
 }
 
 Status GraspdRunner::run(LoadedFrame& frame, EvaluationImage& image) {
   Opened& opened = *opened_;
   const DepthFrame depth = frame.frame();
-  if (opened.session == nullptr || depth.camera.width > opened.limits.maximum_width ||
-      depth.camera.height > opened.limits.maximum_height) {
-    opened.limits = {depth.camera.width, depth.camera.height};
-    opened.session = std::make_unique<DetectionSession>(opened.limits, opened.loaded.banks, 1);
-  }
+  opened.session.fit({depth.camera.width, depth.camera.height}, opened.loaded.banks, 1);
   std::vector<Bank> banks;
   for (const Bank& bank : opened.loaded.banks) {
     const bool wanted = std::any_of(image.targets.begin(), image.targets.end(),
@@ -59,7 +54,7 @@ Status GraspdRunner::run(LoadedFrame& frame, EvaluationImage& image) {
   DetectParameters parameters;
   Detections detections;
   const double start = thread_seconds();
-  if (Status status = opened.session->run(depth, request, parameters, detections); !status.ok()) return status;
+  if (Status status = opened.session.run(depth, request, parameters, detections); !status.ok()) return status;
   image.seconds = thread_seconds() - start;
   image.estimates.clear();
   for (const Instance& instance : detections.instances) {
