@@ -5,12 +5,15 @@
 #include <numbers>
 
 #include "core/bank/bank_writer.hpp"
+#include "core/train/corner_normals.hpp"
 #include "core/train/generalisation.hpp"
 #include "core/train/mesh_simplification.hpp"
+#include "core/train/open_pieces.hpp"
 #include "core/train/part_mesh.hpp"
 #include "core/train/ppf_table.hpp"
 #include "core/train/self_visibility.hpp"
 #include "core/train/surface_sampling.hpp"
+#include "core/train/symmetry_detection.hpp"
 #include "core/train/symmetry_group.hpp"
 #include "core/train/view_refinement.hpp"
 #include "core/train/view_sphere.hpp"
@@ -22,6 +25,10 @@ namespace {
 constexpr int visibility_directions = 642;
 constexpr float render_error = 0.001F;      ///< Of the bank's mesh, as a share of the diameter.
 constexpr float occlusion_error = 0.0005F;  ///< Of the mesh that hides points while the bank is made.
+constexpr float samples_per_voxel = 24.0F;
+constexpr float least_samples = 16000.0F;
+constexpr float most_samples = 60000.0F;
+constexpr float doubtful_symmetry = 0.02F;  ///< Mean distance, as a share of the diameter.
 constexpr float crease_angle = std::numbers::pi_v<float> / 6.0F;
 
 /// The arrays of a bank while it is being made.
@@ -41,6 +48,21 @@ struct BankStorage {
   SymmetryGroup symmetry;
 };
 
+/// What makes no sense in the parameters, or null.
+const char* parameter_fault(const BankBuildParameters& p) {
+  const auto within = [](float value, float low, float high) { return value >= low && value <= high; };
+  if (!within(p.sampling, 0.01F, 0.2F)) return "sampling must lie between 0.01 and 0.2 of the diameter";
+  if (p.angle_bins < 4 || p.angle_bins > 60) return "angle_bins must lie between 4 and 60";
+  if (p.candidate_views < 6 || p.candidate_views > 2000) return "candidate_views must lie between 6 and 2000";
+  if (p.maximum_views < 1 || p.maximum_view_points < 10) return "at least one view of 10 points is needed";
+  if (!within(p.maximum_overlap, 0.0F, 1.0F)) return "maximum_overlap must lie between 0 and 1";
+  if (!within(p.minimum_completeness, 0.0F, 1.0F)) return "minimum_completeness must lie between 0 and 1";
+  if (!within(p.maximum_incidence, 0.2F, 1.56F)) return "maximum_incidence must lie between 0.2 and 1.56 radians";
+  if (!within(p.sensor_distance, 0.01F, 100.0F)) return "sensor_distance must lie between 0.01 and 100 metres";
+  if (p.surface_points < 100 || p.surface_points > 20000) return "surface_points must lie between 100 and 20000";
+  return nullptr;
+}
+
 void describe_part(const PartDescription& part, const PartMesh& mesh, const BankBuildParameters& parameters,
                    BankStorage& storage) {
   BankPart& out = storage.part;
@@ -57,25 +79,23 @@ void describe_part(const PartDescription& part, const PartMesh& mesh, const Bank
   out.symmetry_axis = storage.symmetry.axis;
 }
 
-/// The dense surface: evenly spread points that can be seen from anywhere at all, their visibility,
+/// The dense surface: evenly spread points out of those that can be seen at all, their visibility,
 /// and the visible edges.
 void add_surface(const PartMesh& mesh, const MeshView& occluder, const ViewingConditions& conditions,
-                 const BankBuildParameters& parameters, BankStorage& storage) {
-  const auto wanted = static_cast<std::size_t>(parameters.surface_points);
-  const std::vector<OrientedPoint> pool = sample_surface(mesh.mesh, wanted * 8);
-  storage.directions = view_sphere(visibility_directions);
-  const Visibility coarse = find_visibility(occluder, pool, view_sphere(92), conditions);
+                 const CandidateViews& candidates, const BankBuildParameters& parameters, BankStorage& storage) {
   std::vector<OrientedPoint> reachable;
-  for (std::size_t i = 0; i < pool.size(); ++i) {
+  for (std::size_t i = 0; i < candidates.samples.size(); ++i) {
     bool seen = false;
-    for (std::size_t d = 0; d < 92 && !seen; ++d) seen = coarse.seen.at(d, i);
-    if (seen) reachable.push_back(pool[i]);
+    for (std::size_t d = 0; d < candidates.directions.size() && !seen; ++d) seen = candidates.visibility.seen.at(d, i);
+    if (seen) reachable.push_back(candidates.samples[i]);
   }
+  const auto wanted = static_cast<std::size_t>(parameters.surface_points);
   std::vector<OrientedPoint> points;
   for (const std::size_t i : farthest_point_order(reachable, wanted, 0.02F * mesh.diameter)) {
     points.push_back(reachable[i]);
     storage.surface.push_back({reachable[i].position, reachable[i].normal});
   }
+  storage.directions = view_sphere(visibility_directions);
   storage.visibility = find_visibility(occluder, points, storage.directions, conditions).seen;
 
   const float near_surface = 0.02F * mesh.diameter;
@@ -85,6 +105,23 @@ void add_surface(const PartMesh& mesh, const MeshView& occluder, const ViewingCo
     });
     if (visible) storage.edges.push_back(edge);
   }
+}
+
+/// The symmetries as they were given, or as they are found on the mesh; what is to be said of them.
+SymmetryGroup settle_symmetry(const PartDescription& part, const PartMesh& mesh, BankReport& report) {
+  if (part.symmetry_given) {
+    const SymmetryGroup group =
+        close_group(part.symmetry_discrete, part.symmetry_continuous, part.symmetry_axis, mesh.diameter);
+    if (const float miss = group_distance(mesh.mesh, group, mesh.diameter); miss > doubtful_symmetry) {
+      report.remarks.push_back("the symmetries given do not fit the mesh: it comes to lie " +
+                               std::to_string(std::lround(100.0F * miss)) + "% of the diameter beside itself");
+    }
+    return group;
+  }
+  SymmetryGroup group = detect_symmetry(mesh.mesh, mesh.diameter);
+  report.symmetry_proposed = true;
+  report.remarks.push_back("symmetries found on the mesh: " + describe(group));
+  return group;
 }
 
 void add_views(std::span<const GeneralisedView> views, std::span<const RefinedView> refined,
@@ -131,30 +168,35 @@ Bank bank_over(const BankStorage& storage, const PartDescription& part) {
 
 Result<std::vector<std::byte>> build_bank(const PartDescription& part, const BankBuildParameters& parameters,
                                           BankReport& report, const std::function<void(float)>& progress) {
-  const auto prepared = prepare_mesh(part.mesh);
+  if (const char* fault = parameter_fault(parameters); fault != nullptr) {
+    return Status(StatusCode::bad_configuration, fault);
+  }
+  auto prepared = prepare_mesh(part.mesh);
   if (!prepared.ok()) return prepared.status();
-  const PartMesh& mesh = prepared.value();
+  PartMesh mesh = std::move(prepared).value();
+  orient_open_pieces(mesh);
   report = BankReport{};
   report.remarks = mesh.remarks;
   progress(0.05F);
 
   BankStorage storage;
-  storage.symmetry = close_group(part.symmetry_discrete, part.symmetry_continuous, part.symmetry_axis, mesh.diameter);
+  storage.symmetry = settle_symmetry(part, mesh, report);
   describe_part(part, mesh, parameters, storage);
+  progress(0.2F);
+
   const ViewingConditions conditions{storage.part.centre, mesh.diameter, parameters.sensor_distance,
                                      parameters.maximum_incidence};
   const Mesh occluder = simplify_mesh(mesh.mesh, occlusion_error * mesh.diameter);
-  add_surface(mesh, occluder.view(), conditions, parameters, storage);
-  progress(0.5F);
-
   const float voxel = storage.part.sampling;
-  constexpr float samples_per_voxel = 24.0F;
-  const auto sample_count =
-      static_cast<std::size_t>(std::clamp(samples_per_voxel * mesh.area / (voxel * voxel), 2000.0F, 60000.0F));
-  const std::vector<OrientedPoint> samples = sample_surface(mesh.mesh, sample_count);
+  const auto sample_count = static_cast<std::size_t>(
+      std::clamp(samples_per_voxel * mesh.area / (voxel * voxel), least_samples, most_samples));
+  const std::vector<OrientedPoint> samples =
+      sample_surface(mesh.mesh, smooth_corner_normals(mesh.mesh, crease_angle), sample_count);
   const std::vector<Vector3> directions = view_sphere(parameters.candidate_views);
   const Visibility visibility = find_visibility(occluder.view(), samples, directions, conditions);
   const CandidateViews candidates{directions, samples, visibility};
+  progress(0.4F);
+  add_surface(mesh, occluder.view(), conditions, candidates, parameters, storage);
   progress(0.7F);
 
   const std::vector<RefinedView> refined =

@@ -71,15 +71,7 @@ std::vector<std::uint32_t> merge_places(const std::vector<Vector3>& vertices, fl
   return place_of;
 }
 
-/// The pieces of a mesh that hang together by edges of exactly two faces: for each face its piece,
-/// and whether it must be turned over to agree with the first face of its piece.
-struct Pieces {
-  std::vector<std::uint32_t> piece;
-  std::vector<bool> turned;
-  std::vector<bool> open;  ///< For each piece: it has edges that do not join exactly two faces.
-};
-
-Pieces find_pieces(const std::vector<Triangle>& triangles, const std::vector<FaceSide>& sides) {
+MeshPieces find_pieces(const std::vector<Triangle>& triangles, const std::vector<FaceSide>& sides) {
   struct Neighbour {
     std::uint32_t face;
     bool same_sense;
@@ -98,7 +90,8 @@ Pieces find_pieces(const std::vector<Triangle>& triangles, const std::vector<Fac
     first = end;
   }
   constexpr std::uint32_t unknown = 0xFFFFFFFFU;
-  Pieces pieces{std::vector<std::uint32_t>(triangles.size(), unknown), std::vector<bool>(triangles.size(), false), {}};
+  MeshPieces pieces{
+      std::vector<std::uint32_t>(triangles.size(), unknown), std::vector<bool>(triangles.size(), false), {}};
   std::vector<std::uint32_t> front;
   for (std::uint32_t seed = 0; seed < triangles.size(); ++seed) {
     if (pieces.piece[seed] != unknown) continue;
@@ -123,7 +116,7 @@ Pieces find_pieces(const std::vector<Triangle>& triangles, const std::vector<Fac
 
 /// Turns faces so that each piece has one sense: outward by its volume when it is closed, else the
 /// sense in which most of its area was given. Returns how many faces were turned.
-std::size_t orient(Mesh& mesh, const Pieces& pieces, const Vector3& middle) {
+std::size_t orient(Mesh& mesh, const MeshPieces& pieces, const Vector3& middle) {
   std::vector<double> volume(pieces.open.size(), 0.0);
   std::vector<double> kept_area(pieces.open.size(), 0.0);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -217,8 +210,8 @@ Result<PartMesh> prepare_mesh(const Mesh& mesh) {
   if (dropped > 0) part.remarks.push_back(count_of(dropped, " faces without area dropped"));
 
   const std::vector<FaceSide> sides = sorted_face_sides(part.mesh.triangles);
-  const Pieces pieces = find_pieces(part.mesh.triangles, sides);
-  const std::size_t turned = orient(part.mesh, pieces, 0.5F * (part.box_min + part.box_max));
+  part.pieces = find_pieces(part.mesh.triangles, sides);
+  const std::size_t turned = orient(part.mesh, part.pieces, 0.5F * (part.box_min + part.box_max));
   if (turned > 0) part.remarks.push_back(count_of(turned, " faces turned to point outward"));
   std::size_t edges = 0;
   std::size_t open = 0;
@@ -227,8 +220,7 @@ Result<PartMesh> prepare_mesh(const Mesh& mesh) {
     if (end - i != 2) ++open;
     i = end;
   }
-  part.closed = open == 0;
-  if (!part.closed) {
+  if (open > 0) {
     part.remarks.push_back("the mesh is not closed: " + count_of(open, " of ") +
                            count_of(edges, " edges are open or shared"));
   }

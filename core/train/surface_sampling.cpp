@@ -9,28 +9,32 @@
 
 namespace graspd {
 
-std::vector<OrientedPoint> sample_surface(const Mesh& mesh, std::size_t count) {
+std::vector<OrientedPoint> sample_surface(const Mesh& mesh, std::span<const CornerNormals> corners, std::size_t count) {
   double total = 0;
   for (const Triangle& t : mesh.triangles) total += static_cast<double>(face_vector(mesh, t).norm());
   std::vector<OrientedPoint> points;
   points.reserve(count);
   const double share = total / static_cast<double>(count);
   double reached = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vector3 normal = face_vector(mesh, t);
-    reached += static_cast<double>(normal.norm());
+  for (std::size_t face = 0; face < mesh.triangles.size(); ++face) {
+    const Triangle& t = mesh.triangles[face];
+    const Vector3 face_normal = face_vector(mesh, t);
+    reached += static_cast<double>(face_normal.norm());
     while (points.size() < count && (static_cast<double>(points.size()) + 0.5) * share <= reached) {
       // Roberts' R2 sequence: even over the unit square without chance.
-      const double index = static_cast<double>(points.size());
+      const auto index = static_cast<double>(points.size());
       auto a = static_cast<float>(std::fmod(0.5 + index * 0.75487766624669276, 1.0));
       auto b = static_cast<float>(std::fmod(0.5 + index * 0.56984029099805327, 1.0));
       if (a + b > 1.0F) {
         a = 1.0F - a;
         b = 1.0F - b;
       }
-      const Vector3& corner = mesh.vertices[t[0]];
-      points.push_back(
-          {corner + a * (mesh.vertices[t[1]] - corner) + b * (mesh.vertices[t[2]] - corner), normal.normalized()});
+      const float rest = 1.0F - a - b;
+      const Vector3 position = rest * mesh.vertices[t[0]] + a * mesh.vertices[t[1]] + b * mesh.vertices[t[2]];
+      const Vector3 normal = corners.empty()
+                                 ? face_normal
+                                 : Vector3(rest * corners[face][0] + a * corners[face][1] + b * corners[face][2]);
+      points.push_back({position, normal.normalized()});
     }
   }
   return points;

@@ -7,11 +7,14 @@
 #include "core/bank/bank.hpp"
 #include "core/geometry/mesh.hpp"
 #include "core/geometry/oriented_point.hpp"
+#include "core/train/corner_normals.hpp"
 
 namespace graspd {
 
-/// `count` points spread over the mesh by area, with the normals of their faces.
-[[nodiscard]] std::vector<OrientedPoint> sample_surface(const Mesh& mesh, std::size_t count);
+/// `count` points spread over the mesh by area. Their normals run evenly between those of the corners
+/// of their faces, or are those of the faces when `corners` is empty.
+[[nodiscard]] std::vector<OrientedPoint> sample_surface(const Mesh& mesh, std::span<const CornerNormals> corners,
+                                                        std::size_t count);
 
 /// The order of the first `count` points in which each is the farthest from those before it, so that
 /// every prefix covers the part evenly. `normal_weight` (metres) is the distance that opposite

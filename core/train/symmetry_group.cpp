@@ -1,6 +1,7 @@
 #include "core/train/symmetry_group.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <numbers>
 
 namespace graspd {
@@ -42,6 +43,17 @@ std::vector<RigidTransform> sampled_members(const SymmetryGroup& group, int turn
     }
   }
   return members;
+}
+
+std::string describe(const SymmetryGroup& group) {
+  if (group.trivial()) return "none";
+  const Vector3& axis = group.axis.direction;
+  char text[120];
+  std::snprintf(text, sizeof(text), "any turn about (%.3f, %.3f, %.3f)", static_cast<double>(axis.x()),
+                static_cast<double>(axis.y()), static_cast<double>(axis.z()));
+  const std::string poses = std::to_string(group.discrete.size()) + " poses that look alike";
+  if (!group.continuous) return poses;
+  return group.discrete.size() == 1 ? std::string(text) : std::string(text) + ", " + poses;
 }
 
 }  // namespace graspd

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/geometry/symmetry.hpp"
@@ -24,5 +25,8 @@ struct SymmetryGroup {
 
 /// Every member of the group, continuous turns in `turns` steps.
 [[nodiscard]] std::vector<RigidTransform> sampled_members(const SymmetryGroup& group, int turns);
+
+/// The group in words: "any turn about (0, 0, 1), 2 poses", "6 poses", "none".
+[[nodiscard]] std::string describe(const SymmetryGroup& group);
 
 }  // namespace graspd

@@ -13,7 +13,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr int continuous_turns = 36;
-constexpr float minimum_conditioning = 0.004F;
+constexpr float minimum_conditioning = 0.001F;
 
 std::size_t count_bits(std::span<const std::uint64_t> row) {
   return std::accumulate(row.begin(), row.end(), std::size_t{0}, [](std::size_t sum, std::uint64_t word) {

@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include "core/train/generalisation.hpp"
+#include "core/train/part_mesh.hpp"
+#include "core/train/self_visibility.hpp"
+#include "core/train/surface_sampling.hpp"
+#include "core/train/view_refinement.hpp"
+#include "core/train/view_sphere.hpp"
+#include "tests/core/train/shapes.hpp"
+
+namespace graspd {
+namespace {
+
+constexpr float cut_off = 1.31F;
+
+/// A part with everything that the choice of views needs.
+struct Studio {
+  Mesh mesh;
+  float diameter;
+  std::vector<OrientedPoint> samples;
+  std::vector<Vector3> directions;
+  Visibility visibility;
+
+  Studio(const Mesh& shape, float size, std::vector<Vector3> from)
+      : mesh(shape),
+        diameter(size),
+        samples(sample_surface(mesh, smooth_corner_normals(mesh, 0.52F), 6000)),
+        directions(std::move(from)),
+        visibility(find_visibility(mesh.view(), samples, directions, {Vector3::Zero(), diameter, 0.75F, cut_off})) {}
+
+  [[nodiscard]] CandidateViews candidates() const { return {directions, samples, visibility}; }
+};
+
+TEST(ViewSphere, DirectionsAreUnitAndEven) {
+  const auto directions = view_sphere(162);
+  ASSERT_EQ(directions.size(), 162U);
+  Vector3 sum = Vector3::Zero();
+  for (const Vector3& a : directions) {
+    EXPECT_NEAR(a.norm(), 1.0F, 1e-6F);
+    sum += a;
+    float nearest = -1.0F;
+    for (const Vector3& b : directions) {
+      if (&a != &b) nearest = std::max(nearest, a.dot(b));
+    }
+    // Even discs would stand about 0.3 radians apart.
+    EXPECT_GT(std::acos(nearest), 0.2F);
+    EXPECT_LT(std::acos(nearest), 0.4F);
+  }
+  EXPECT_LT(sum.norm(), 0.5F);
+}
+
+TEST(SelfVisibility, ABoxShowsTheThreeFacesOfACorner) {
+  const Studio studio(shapes::box(0.06F, 0.05F, 0.04F), 0.088F, {Vector3(1, 1, 1).normalized(), Vector3::UnitZ()});
+  for (std::size_t i = 0; i < studio.samples.size(); ++i) {
+    const Vector3& normal = studio.samples[i].normal;
+    EXPECT_EQ(studio.visibility.seen.at(0, i), normal.sum() > 0.0F) << normal.transpose();
+    EXPECT_EQ(studio.visibility.seen.at(1, i), normal.z() > 0.5F) << normal.transpose();
+    EXPECT_EQ(studio.visibility.facing.at(1, i), normal.z() > 0.5F);
+  }
+}
+
+TEST(SelfVisibility, OneLegOfABracketHidesTheOther) {
+  // Seen along +x the short leg stands in front of the inside of nothing, but along (1, 0.3) from the
+  // outer corner the long leg's inner face lies behind the short leg.
+  const Studio studio(shapes::moved(shapes::bracket(), {Matrix3::Identity(), Vector3(-0.04F, -0.025F, 0)}), 0.1F,
+                      {Vector3(-1.0F, 0.35F, 0).normalized(), Vector3(1.0F, 1.0F, 0).normalized()});
+  std::size_t hidden = 0;
+  std::size_t open = 0;
+  for (std::size_t i = 0; i < studio.samples.size(); ++i) {
+    const OrientedPoint& p = studio.samples[i];
+    const bool inner_face = p.normal.y() > 0.9F && p.position.y() < 0.0F && p.position.x() > -0.027F;
+    if (!inner_face) continue;
+    if (p.position.x() < 0.02F && p.position.x() > -0.02F) {
+      hidden += studio.visibility.facing.at(0, i) && !studio.visibility.seen.at(0, i) ? 1 : 0;
+      open += studio.visibility.seen.at(1, i) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(hidden, 300U);
+  EXPECT_EQ(hidden, open);
+}
+
+TEST(SelfVisibility, GrazingSurfacesAreNotSeen) {
+  const float tilt = 1.4F;  // More than the cut-off of 1.31 radians, less than a right angle.
+  const Studio studio(shapes::box(0.05F, 0.05F, 0.05F), 0.088F, {Vector3(std::sin(tilt), 0, std::cos(tilt))});
+  for (std::size_t i = 0; i < studio.samples.size(); ++i) {
+    EXPECT_FALSE(studio.samples[i].normal.z() > 0.5F && studio.visibility.seen.at(0, i));
+  }
+}
+
+TEST(ViewRefinement, ACylinderSeenEndOnCannotFixThePose) {
+  const SymmetryGroup symmetry = close_group({}, true, {Vector3::UnitZ(), Vector3::Zero()}, 0.05F);
+  const Studio studio(shapes::cylinder(0.01F, 0.05F), 0.054F,
+                      {Vector3::UnitZ(), Vector3::UnitX(), Vector3(1, 0, 1).normalized()});
+  const auto conditioning = [&](std::size_t direction) {
+    return pose_conditioning(studio.samples, studio.visibility.seen.row(direction), symmetry, 0.027F);
+  };
+  EXPECT_LT(conditioning(0), 1e-4F);
+  EXPECT_LT(conditioning(1), 1e-4F);  // Side on, it may slide along its axis.
+  EXPECT_GT(conditioning(2), 0.01F);
+  // Without the symmetry the turn about the axis is free from everywhere.
+  EXPECT_LT(pose_conditioning(studio.samples, studio.visibility.seen.row(2), {}, 0.027F), 1e-3F);
+}
+
+TEST(ViewRefinement, DegenerateViewsOfACylinderAreDroppedAndOneViewServesAllTurns) {
+  const RigidTransform flip = turn_about({Vector3::UnitX(), Vector3::Zero()}, std::numbers::pi_v<float>);
+  const SymmetryGroup symmetry = close_group(std::span(&flip, 1), true, {Vector3::UnitZ(), Vector3::Zero()}, 0.05F);
+  const Studio studio(shapes::cylinder(0.012F, 0.03F), 0.0384F, view_sphere(162));
+  BankReport report;
+  BankBuildParameters parameters;
+  parameters.minimum_completeness = 0.1F;
+  const auto kept = refine_views(studio.candidates(), symmetry, studio.diameter, parameters, report);
+  EXPECT_EQ(report.views_rendered, 162);
+  EXPECT_GT(report.views_degenerate, 8);
+  EXPECT_EQ(report.views_kept, static_cast<int>(kept.size()));
+  EXPECT_EQ(kept.size(), 1U);
+  EXPECT_LT(std::abs(studio.directions[kept[0].candidate].z()), 0.95F);
+  EXPECT_EQ(report.views_incomplete + report.views_degenerate + report.views_merged + report.views_kept, 162);
+}
+
+TEST(ViewRefinement, EverySideOfABracketIsCoveredByAKeptView) {
+  const Studio studio(shapes::moved(shapes::bracket(), {Matrix3::Identity(), Vector3(-0.04F, -0.025F, 0)}), 0.1F,
+                      view_sphere(162));
+  BankReport report;
+  const auto kept = refine_views(studio.candidates(), {}, studio.diameter, {}, report);
+  EXPECT_GE(kept.size(), 4U);
+  for (std::size_t i = 0; i < studio.samples.size(); i += 7) {
+    const bool covered = std::any_of(kept.begin(), kept.end(), [&](const RefinedView& view) {
+      return studio.visibility.seen.at(view.candidate, i);
+    });
+    EXPECT_TRUE(covered) << studio.samples[i].position.transpose() << " / " << studio.samples[i].normal.transpose();
+  }
+}
+
+TEST(Generalisation, ReferencesOfASymmetricPartLieInOneSlice) {
+  const SymmetryGroup symmetry = close_group({}, true, {Vector3::UnitZ(), Vector3::Zero()}, 0.05F);
+  const Studio studio(shapes::cylinder(0.012F, 0.03F), 0.0384F, view_sphere(162));
+  BankReport report;
+  BankBuildParameters parameters;
+  parameters.minimum_completeness = 0.1F;
+  const auto kept = refine_views(studio.candidates(), symmetry, studio.diameter, parameters, report);
+  const auto orbits = direction_orbits(studio.directions, symmetry);
+  const GeneralisedView view = generalise_view(kept[0], studio.candidates(), orbits, symmetry, Vector3::Zero(), 0.002F);
+  EXPECT_LT(view.references.size() * 5, view.partners.size());
+  const Vector3 first = view.references[0].point.position;
+  for (const ViewPoint& r : view.references) {
+    const Vector3 arm(r.point.position.x(), r.point.position.y(), 0);
+    if (arm.norm() < 0.002F) continue;
+    EXPECT_GT(arm.normalized().dot(Vector3(first.x(), first.y(), 0).normalized()), 0.95F);
+  }
+}
+
+TEST(DirectionOrbits, HoldWhereTheSymmetryCarriesADirection) {
+  const RigidTransform half = turn_about({Vector3::UnitZ(), Vector3::Zero()}, std::numbers::pi_v<float>);
+  const SymmetryGroup symmetry = close_group(std::span(&half, 1), false, {}, 1.0F);
+  const std::vector<Vector3> directions{Vector3::UnitX(), -Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
+  const auto orbits = direction_orbits(directions, symmetry);
+  EXPECT_EQ(orbits[0], (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(orbits[1], (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(orbits[3], (std::vector<std::size_t>{3}));
+}
+
+}  // namespace
+}  // namespace graspd
