@@ -40,6 +40,8 @@ void vote(const NeighbourGrid& scene, const Bank& bank, const OrientedPoint& ref
       const float squared = (second.position - reference.position).squaredNorm();
       if (squared >= reach * reach || squared < bank.grid.distance_step * bank.grid.distance_step) continue;
       const std::uint32_t cell = ppf_cell(ppf_feature(reference, second), bank.grid);
+      // Rounding can put a pair at the very reach beyond the last bin.
+      if (cell == no_ppf_cell) continue;
       const std::uint32_t begin = bank.cell_offsets[cell];
       const std::uint32_t end = bank.cell_offsets[cell + 1];
       if (begin == end) continue;

@@ -57,36 +57,52 @@ Verdict judge(const MapCell& cell, const RenderedModel& model, int u, int v, flo
   return {agrees ? CellVerdict::confirmed : CellVerdict::contradicted, distance};
 }
 
+constexpr std::array<std::array<int, 2>, 4> directions{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+bool rendered_at(const RenderedModel& model, int u, int v) {
+  return model.camera.contains(u, v) && model.front[model.camera.index(u, v)] > 0.0F;
+}
+
+bool on_rim(const RenderedModel& model, int u, int v) {
+  return std::any_of(directions.begin(), directions.end(),
+                     [&](const auto& d) { return !rendered_at(model, u + d[0], v + d[1]); });
+}
+
 /// Votes of the outline on whether the scene ends where the model ends.
 struct OutlineCount {
   int consistent = 0;
   int inconsistent = 0;
 };
 
-/// Looks two cells beyond the rim at (u, v) in direction (du, dv): a surface that goes on there, as the
-/// extension of the one inside, contradicts the rim.
+/// Looks beyond the rim at (u, v) in direction (du, dv): a surface that goes on there, as the extension
+/// of the one inside, contradicts the rim. Sensors round edges off, so one step away from it suffices.
 void judge_rim(const SceneMap& map, const RenderedModel& model, int u, int v, int du, int dv, float tolerance,
                OutlineCount& count) {
-  const int map_u = model.rectangle.left + u;
-  const int map_v = model.rectangle.top + v;
-  const int beyond_u = map_u + 2 * du;
-  const int beyond_v = map_v + 2 * dv;
-  if (!map.camera.contains(beyond_u, beyond_v)) return;
-  // Beyond a narrow gap, such as one between teeth, the model itself goes on.
-  if (model.camera.contains(u + 2 * du, v + 2 * dv) && model.front[model.camera.index(u + 2 * du, v + 2 * dv)] > 0.0F)
-    return;
-  const MapCell& inside = map.at(map_u, map_v);
-  const MapCell& beyond = map.at(beyond_u, beyond_v);
-  if (!beyond.measured()) return;
-  const float gap = beyond.point.z() - model.front[model.camera.index(u, v)];
-  if (gap < -4.0F * tolerance) return;
-  if (beyond.foreground == 0 || !inside.has_normal() || !beyond.has_normal()) {
-    ++count.consistent;
-    return;
+  constexpr int first = 2;
+  constexpr int last = 4;
+  const MapCell& inside = map.at(model.rectangle.left + u, model.rectangle.top + v);
+  const float front = model.front[model.camera.index(u, v)];
+  bool seen = false;
+  for (int k = first; k <= last; ++k) {
+    // Beyond a narrow gap, such as one between teeth, the model itself goes on.
+    const int x = u + k * du;
+    const int y = v + k * dv;
+    if (rendered_at(model, x, y)) break;
+    if (!map.camera.contains(model.rectangle.left + x, model.rectangle.top + y)) break;
+    const MapCell& beyond = map.at(model.rectangle.left + x, model.rectangle.top + y);
+    if (!beyond.measured()) continue;
+    // What stands in front hides whether the surface ends.
+    if (beyond.point.z() - front < -4.0F * tolerance) break;
+    seen = true;
+    const bool goes_on = beyond.foreground != 0 && inside.has_normal() && beyond.has_normal() &&
+                         std::abs(inside.normal.dot(beyond.point - inside.point)) < tolerance &&
+                         inside.normal.dot(beyond.normal) > 0.9F;
+    if (!goes_on) {
+      ++count.consistent;
+      return;
+    }
   }
-  const float off_plane = std::abs(inside.normal.dot(beyond.point - inside.point));
-  const bool goes_on = off_plane < tolerance && inside.normal.dot(beyond.normal) > 0.9F;
-  ++(goes_on ? count.inconsistent : count.consistent);
+  count.inconsistent += seen ? 1 : 0;
 }
 
 }  // namespace
@@ -139,15 +155,16 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
         counts[static_cast<std::size_t>(CellVerdict::occluded)] += 1.0F;
         continue;
       }
-      const Verdict verdict = judge(cell, model, u, v, tolerance);
+      const bool rim = on_rim(model, u, v);
+      Verdict verdict = judge(cell, model, u, v, tolerance);
+      // Pixels at an edge mix both sides, so a rim that seems to stand before free space says nothing.
+      if (rim && verdict.verdict == CellVerdict::behind) verdict.verdict = CellVerdict::unmeasured;
       counts[static_cast<std::size_t>(verdict.verdict)] += 1.0F;
       if (verdict.verdict != CellVerdict::confirmed) continue;
       squares += verdict.distance * verdict.distance;
-      constexpr std::array<std::array<int, 2>, 4> directions{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+      if (!rim) continue;
       for (const auto& [du, dv] : directions) {
-        const bool rim =
-            !model.camera.contains(u + du, v + dv) || model.front[model.camera.index(u + du, v + dv)] == 0.0F;
-        if (rim) judge_rim(map, model, u, v, du, dv, tolerance, outline);
+        if (!rendered_at(model, u + du, v + dv)) judge_rim(map, model, u, v, du, dv, tolerance, outline);
       }
     }
   }
@@ -173,9 +190,9 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
 float score_of(const Evidence& evidence) {
   // A logistic regression over refined hypotheses of simulated bins, right or wrong by MSSD.
   const auto log_odds = [](float share) { return std::log((share + 0.02F) / (1.02F - share)); };
-  const float sum = -0.8F + 0.9F * log_odds(evidence.visible) + 0.9F * log_odds(evidence.purity) +
-                    0.3F * log_odds(evidence.edge) - 16.0F * evidence.boundary - 18.0F * evidence.below -
-                    6.0F * evidence.residual;
+  const float sum = -3.4F + 0.5F * log_odds(evidence.visible) + 0.5F * std::log1p(evidence.confirmed) +
+                    0.9F * log_odds(evidence.purity) + 0.4F * log_odds(evidence.edge) - 15.0F * evidence.boundary -
+                    22.0F * evidence.below - 7.0F * evidence.residual;
   return evidence.confirmed > 0.0F ? 1.0F / (1.0F + std::exp(-sum)) : 0.0F;
 }
 
