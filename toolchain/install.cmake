@@ -3,7 +3,8 @@
 set(GRASPD_CONFIGURATION_DIRECTORY ${CMAKE_INSTALL_FULL_SYSCONFDIR}/graspd)
 install(TARGETS graspd RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES configs/graspd.service DESTINATION lib/systemd/system)
-install(FILES configs/register-map.md configs/log-codes.md configs/graspd.toml LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES configs/register-map.md configs/log-codes.md configs/graspd.toml configs/part.toml LICENSE
+        DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # A configuration that an integrator has written is kept; the example stands beside the register map.
 install(CODE "
