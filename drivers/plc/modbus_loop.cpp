@@ -19,7 +19,6 @@ namespace graspd {
 namespace {
 
 constexpr int poll_timeout_ms = 50;
-constexpr std::int64_t half_sent_ns = 2'000'000'000;
 constexpr std::int64_t accept_pause_ns = 1'000'000'000;
 constexpr std::uint32_t log_lines = 20;
 constexpr std::int64_t log_window_ns = 10'000'000'000;
@@ -60,6 +59,7 @@ ModbusServer::Loop::Loop(const ServerOptions& options, ClientFilter filter)
     : filter_(std::move(filter)),
       clients_(static_cast<std::size_t>(options.maximum_clients)),
       idle_ns_(nanoseconds(options.idle_time)),
+      unfinished_ns_(nanoseconds(options.unfinished_time)),
       format_(options.format),
       handshake_{nanoseconds(options.heartbeat_timeout), nanoseconds(options.request_timeout)},
       throttle_(log_lines, log_window_ns) {}
@@ -114,6 +114,7 @@ void ModbusServer::Loop::run() {
   while (!stopping_.load()) {
     const std::span<pollfd> waiting = prepare_poll(monotonic_ns());
     const int ready = poll(waiting.data(), waiting.size(), poll_timeout_ms);
+    if (ready < 0 && errno != EINTR) std::this_thread::sleep_for(std::chrono::milliseconds(poll_timeout_ms));
     const std::int64_t now_ns = monotonic_ns();
     take_news(now_ns);
     if (ready > 0) {
@@ -123,7 +124,7 @@ void ModbusServer::Loop::run() {
       }
       if (waiting[1].revents != 0) accept_client(now_ns);
     }
-    drop_half_sent(now_ns);
+    drop_unfinished(now_ns);
     session_->set_clients(static_cast<std::uint16_t>(clients_.open_count()));
     mailbox_.set_wanted(session_->wanted());
     progress_.fetch_add(1, std::memory_order_relaxed);
@@ -251,9 +252,9 @@ bool ModbusServer::Loop::serve(ModbusClientSlot& client, std::span<const std::ui
   return answered;
 }
 
-void ModbusServer::Loop::drop_half_sent(std::int64_t now_ns) {
+void ModbusServer::Loop::drop_unfinished(std::int64_t now_ns) {
   for (ModbusClientSlot& client : clients_.slots()) {
-    if (!client.is_open() || client.filled == 0 || now_ns - client.heard_ns < half_sent_ns) continue;
+    if (!client.is_open() || client.filled == 0 || now_ns - client.heard_ns < unfinished_ns_) continue;
     if (may_log(now_ns)) {
       log_event(LogLevel::warning, "W120", "client left a request unfinished: closed peer=%s", client.name.data());
     }

@@ -60,12 +60,13 @@ class ModbusServer::Loop {
   void receive(ModbusClientSlot& client, std::int64_t now_ns);
   void serve_buffered(ModbusClientSlot& client, std::int64_t now_ns);
   [[nodiscard]] bool serve(ModbusClientSlot& client, std::span<const std::uint8_t> request, std::int64_t now_ns);
-  void drop_half_sent(std::int64_t now_ns);
+  void drop_unfinished(std::int64_t now_ns);
   [[nodiscard]] bool may_log(std::int64_t now_ns);
 
   ClientFilter filter_;
   ClientTable clients_;
   std::int64_t idle_ns_;
+  std::int64_t unfinished_ns_;
   BlockFormat format_;
   HandshakeOptions handshake_;
   WorkerMailbox mailbox_;

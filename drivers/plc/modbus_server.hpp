@@ -16,11 +16,16 @@ struct ServerOptions {
   std::uint16_t port = 502;              ///< 0: any free port.
   /// Who may connect, as addresses or networks ("192.168.1.0/24"); empty: everybody.
   std::vector<std::string> allowed_clients;
-  int maximum_clients = 8;                         ///< 1 to 64.
-  std::chrono::milliseconds idle_time{5000};       ///< A client silent for so long gives way when the table is full.
-  BlockFormat format;                              ///< The convention applies when the request names none.
-  std::chrono::milliseconds heartbeat_timeout{0};  ///< The PLC's heartbeat must change this often; 0: not watched.
-  std::chrono::milliseconds request_timeout{0};    ///< The worker must answer within; 0: not watched.
+  int maximum_clients = 8;  ///< 1 to 64.
+  /// A client silent for so long gives way when the table is full.
+  std::chrono::milliseconds idle_time{5000};
+  /// A client that leaves a request unfinished for so long is disconnected.
+  std::chrono::milliseconds unfinished_time{2000};
+  BlockFormat format;  ///< The convention applies when the request names none.
+  /// The PLC's heartbeat must change this often; 0: not watched.
+  std::chrono::milliseconds heartbeat_timeout{0};
+  /// The worker must answer within; 0: not watched.
+  std::chrono::milliseconds request_timeout{0};
 };
 
 /// The Modbus TCP server that the PLC polls. One thread of its own holds every connection and every

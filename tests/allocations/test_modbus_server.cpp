@@ -34,7 +34,7 @@ TEST(ModbusServerAllocations, ThereAreNoneBetweenTriggerAndAcknowledge) {
   ASSERT_EQ(connect(client, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
   for (int i = 0; i < 10; ++i) {
     exchange(client, {0, 1, 0, 0, 0, 6, 1, 5, 0, 0, 255, 0}, 12);  // Trigger.
-    ASSERT_TRUE(server->wait_for_request(request, 2000ms));
+    ASSERT_TRUE(server->wait_for_request(request, patience));
     exchange(client, {0, 1, 0, 0, 0, 6, 1, 5, 0, 0, 0, 0}, 12);
     exchange(client, {0, 1, 0, 0, 0, 6, 1, 5, 0, 0, 255, 0}, 12);  // Refused, and logged.
     server->capture_done(request.sequence);

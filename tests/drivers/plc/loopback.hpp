@@ -22,6 +22,9 @@ namespace graspd {
 
 using namespace std::chrono_literals;
 
+/// How long a test waits for what must come: a busy machine takes its time.
+constexpr std::chrono::milliseconds patience = 10s;
+
 /// A server on a free port of the loopback interface.
 inline std::unique_ptr<ModbusServer> start_server(ServerOptions options = {}) {
   options.bind_address = "127.0.0.1";
@@ -103,7 +106,7 @@ class RawClient {
     EXPECT_EQ(send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
   }
   /// What arrives within `time`; empty when nothing does or the server hung up.
-  [[nodiscard]] std::vector<std::uint8_t> receive_bytes(std::chrono::milliseconds time = 2000ms) const {
+  [[nodiscard]] std::vector<std::uint8_t> receive_bytes(std::chrono::milliseconds time = patience) const {
     pollfd waiting{descriptor_, POLLIN, 0};
     std::vector<std::uint8_t> bytes(512);
     if (poll(&waiting, 1, static_cast<int>(time.count())) != 1) return {};
@@ -112,7 +115,7 @@ class RawClient {
     return bytes;
   }
   /// True when the server hung up within `time`.
-  [[nodiscard]] bool is_closed(std::chrono::milliseconds time = 2000ms) const {
+  [[nodiscard]] bool is_closed(std::chrono::milliseconds time = patience) const {
     pollfd waiting{descriptor_, POLLIN, 0};
     std::array<std::uint8_t, 1> byte{};
     return poll(&waiting, 1, static_cast<int>(time.count())) == 1 && recv(descriptor_, byte.data(), 1, 0) <= 0;

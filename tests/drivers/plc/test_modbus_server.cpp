@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/select.h>
 
 #include <atomic>
@@ -11,6 +12,7 @@ namespace graspd {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
+constexpr std::int64_t patience_ns = std::chrono::nanoseconds(patience).count();
 const Bytes read_one_input{0, 9, 0, 0, 0, 6, 1, 4, 0, 0, 0, 1};
 
 TEST(ModbusServer, GoesThroughTheHandshake) {
@@ -18,7 +20,7 @@ TEST(ModbusServer, GoesThroughTheHandshake) {
   Worker worker(*server, pick_for);
   ModbusClient client = connect_to(*server);
   for (std::uint16_t id = 100; id < 120; ++id) {
-    const Result<ResultBlock> result = client.request_pick({.request_id = id, .part = 3}, 2000ms);
+    const Result<ResultBlock> result = client.request_pick({.request_id = id, .part = 3}, patience);
     ASSERT_TRUE(result.ok()) << result.status().message();
     EXPECT_TRUE(result.value().verified);
     EXPECT_EQ(result.value().request_id, id);
@@ -38,7 +40,7 @@ TEST(ModbusServer, PassesOnWhatThePlcAskedFor) {
   ModbusClient client = connect_to(*server);
   ASSERT_TRUE(client.trigger({.request_id = 5, .part = 9, .minimum_score = 7500, .pose_convention = 2}).ok());
   PlcRequest request;
-  ASSERT_TRUE(server->wait_for_request(request, 2000ms));
+  ASSERT_TRUE(server->wait_for_request(request, patience));
   EXPECT_EQ(request.kind, RequestKind::capture);
   EXPECT_EQ(request.request_id, 5);
   EXPECT_EQ(request.part, 9);
@@ -48,7 +50,7 @@ TEST(ModbusServer, PassesOnWhatThePlcAskedFor) {
   // Written after the edge: the request keeps its copy.
   ASSERT_TRUE(client.write_request({.request_id = 6, .pose_convention = 4}).ok());
   server->commit(pick_for(request));
-  ASSERT_TRUE(client.wait_done(2000ms).ok());
+  ASSERT_TRUE(client.wait_done(patience).ok());
   const Result<ResultBlock> result = client.read_block();
   ASSERT_TRUE(result.ok());
   EXPECT_EQ(result.value().request_id, 5);
@@ -63,9 +65,9 @@ TEST(ModbusServer, ShowsBusyThenCaptureDoneThenDone) {
   EXPECT_TRUE(client.read_outputs().value().busy);
   EXPECT_FALSE(client.read_outputs().value().capture_done);
   PlcRequest request;
-  ASSERT_TRUE(server->wait_for_request(request, 2000ms));
+  ASSERT_TRUE(server->wait_for_request(request, patience));
   server->capture_done(request.sequence);
-  const std::int64_t end = monotonic_ns() + 2'000'000'000;
+  const std::int64_t end = monotonic_ns() + patience_ns;
   while (!client.read_outputs().value().capture_done && monotonic_ns() < end) std::this_thread::sleep_for(1ms);
   EXPECT_TRUE(client.read_outputs().value().capture_done);
   EXPECT_TRUE(client.read_outputs().value().busy);
@@ -76,7 +78,7 @@ TEST(ModbusServer, ShowsBusyThenCaptureDoneThenDone) {
   EXPECT_EQ(client.read_live(live_register::last_refusal).value(), static_cast<std::uint16_t>(ResultCode::busy));
   PlcRequest queued;
   server->commit(pick_for(request));
-  ASSERT_TRUE(client.wait_done(2000ms).ok());
+  ASSERT_TRUE(client.wait_done(patience).ok());
   EXPECT_FALSE(server->wait_for_request(queued, 50ms)) << "a refused trigger must not be queued";
   EXPECT_TRUE(client.read_outputs().value().result_valid);
 }
@@ -86,9 +88,9 @@ TEST(ModbusServer, ResetGivesARequestUp) {
   ModbusClient client = connect_to(*server);
   ASSERT_TRUE(client.pulse(coil::trigger).ok());
   PlcRequest request;
-  ASSERT_TRUE(server->wait_for_request(request, 2000ms));
+  ASSERT_TRUE(server->wait_for_request(request, patience));
   ASSERT_TRUE(client.pulse(coil::reset).ok());
-  const std::int64_t end = monotonic_ns() + 2'000'000'000;
+  const std::int64_t end = monotonic_ns() + patience_ns;
   while (server->is_wanted(request.sequence) && monotonic_ns() < end) std::this_thread::sleep_for(1ms);
   EXPECT_FALSE(server->is_wanted(request.sequence));
   server->commit(pick_for(request));
@@ -108,7 +110,7 @@ TEST(ModbusServer, NeverShowsAPickThatWasNotVerified) {
     return result;
   });
   ModbusClient client = connect_to(*server);
-  const Result<ResultBlock> result = client.request_pick({}, 2000ms);
+  const Result<ResultBlock> result = client.request_pick({}, patience);
   ASSERT_TRUE(result.ok());
   EXPECT_FALSE(result.value().verified);
   EXPECT_EQ(result.value().code, ResultCode::internal);
@@ -119,7 +121,7 @@ TEST(ModbusServer, MirrorsInputRegistersAmongTheHoldingRegisters) {
   const auto server = start_server();
   Worker worker(*server, pick_for);
   ModbusClient client = connect_to(*server);
-  ASSERT_TRUE(client.request_pick({.request_id = 77}, 2000ms).ok());
+  ASSERT_TRUE(client.request_pick({.request_id = 77}, patience).ok());
   RawClient raw(*server);
   const auto read = [&raw](std::uint8_t function, unsigned address) {
     raw.send_bytes({0, 1, 0, 0, 0, 6, 1, function, static_cast<std::uint8_t>(address >> 8U),
@@ -134,7 +136,9 @@ TEST(ModbusServer, MirrorsInputRegistersAmongTheHoldingRegisters) {
 }
 
 TEST(ModbusServer, HalfSentRequestBlocksNobody) {
-  const auto server = start_server();
+  ServerOptions options;
+  options.unfinished_time = 60s;
+  const auto server = start_server(options);
   Worker worker(*server, pick_for);
   ModbusClient client = connect_to(*server);
   std::vector<std::unique_ptr<RawClient>> stuck;
@@ -143,9 +147,9 @@ TEST(ModbusServer, HalfSentRequestBlocksNobody) {
     stuck.back()->send_bytes(Bytes(read_one_input.begin(), read_one_input.begin() + static_cast<std::ptrdiff_t>(cut)));
   }
   const std::int64_t before = monotonic_ns();
-  for (int i = 0; i < 200; ++i) ASSERT_TRUE(client.read_block().ok());
-  ASSERT_TRUE(client.request_pick({}, 2000ms).ok());
-  EXPECT_LT(monotonic_ns() - before, 1'500'000'000) << "201 answers in less than one half-sent request may last";
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(client.read_block().ok());
+  ASSERT_TRUE(client.request_pick({}, patience).ok());
+  EXPECT_LT(monotonic_ns() - before, patience_ns) << "a half-sent request may last six times as long";
   // The rest arrives late: it is a request all the same.
   stuck.back()->send_bytes(Bytes(read_one_input.begin() + 6, read_one_input.end()));
   EXPECT_EQ(stuck.back()->receive_bytes(), (Bytes{0, 9, 0, 0, 0, 5, 1, 4, 2, 0, 1}));
@@ -161,14 +165,16 @@ TEST(ModbusServer, RefusalBlocksNobody) {
     raw.send_bytes({0, 2, 0, 0, 0, 2, 1, 0x2B});
     ASSERT_TRUE(client.read_block().ok());
   }
-  EXPECT_LT(monotonic_ns() - before, 1'000'000'000);
+  EXPECT_LT(monotonic_ns() - before, 5'000'000'000) << "twenty pauses of half a second";
 }
 
 TEST(ModbusServer, ClosesAClientThatLeavesARequestUnfinished) {
-  const auto server = start_server();
+  ServerOptions options;
+  options.unfinished_time = 100ms;
+  const auto server = start_server(options);
   RawClient raw(*server);
   raw.send_bytes({0, 1, 0, 0, 0});
-  EXPECT_TRUE(raw.is_closed(4000ms));
+  EXPECT_TRUE(raw.is_closed());
 }
 
 TEST(ModbusServer, AnswersBadRequestsWithExceptions) {
@@ -225,9 +231,9 @@ TEST(ModbusServer, SurvivesClientsThatVanish) {
   ModbusClient client = connect_to(*server);
   ASSERT_TRUE(client.write_coil(coil::trigger, false).ok());
   ASSERT_TRUE(client.pulse(coil::reset).ok());
-  const std::int64_t end = monotonic_ns() + 2'000'000'000;
+  const std::int64_t end = monotonic_ns() + patience_ns;
   while (client.read_outputs().value().busy && monotonic_ns() < end) std::this_thread::sleep_for(1ms);
-  const Result<ResultBlock> result = client.request_pick({.request_id = 3}, 2000ms);
+  const Result<ResultBlock> result = client.request_pick({.request_id = 3}, patience);
   ASSERT_TRUE(result.ok()) << result.status().message();
   EXPECT_TRUE(result.value().verified);
 }
@@ -235,7 +241,7 @@ TEST(ModbusServer, SurvivesClientsThatVanish) {
 TEST(ModbusServer, IdleClientGivesWayWhenTheTableIsFull) {
   ServerOptions options;
   options.maximum_clients = 2;
-  options.idle_time = 200ms;
+  options.idle_time = 1000ms;
   const auto server = start_server(options);
   const RawClient idle(*server);
   RawClient active(*server);
@@ -243,7 +249,7 @@ TEST(ModbusServer, IdleClientGivesWayWhenTheTableIsFull) {
   ASSERT_EQ(active.receive_bytes().size(), 11U);
   const RawClient early(*server);
   EXPECT_TRUE(early.is_closed()) << "nobody has been silent for long enough";
-  std::this_thread::sleep_for(250ms);
+  std::this_thread::sleep_for(1100ms);
   active.send_bytes(read_one_input);
   ASSERT_EQ(active.receive_bytes().size(), 11U);
   const RawClient late(*server);
@@ -252,6 +258,57 @@ TEST(ModbusServer, IdleClientGivesWayWhenTheTableIsFull) {
   EXPECT_TRUE(idle.is_closed());
   active.send_bytes(read_one_input);
   EXPECT_EQ(active.receive_bytes().size(), 11U);
+}
+
+/// Sets the number of descriptors the process may have, for as long as it lives.
+class DescriptorLimit {
+ public:
+  explicit DescriptorLimit(rlim_t limit) {
+    getrlimit(RLIMIT_NOFILE, &before_);
+    rlimit now = before_;
+    now.rlim_cur = limit;
+    is_set = setrlimit(RLIMIT_NOFILE, &now) == 0;
+  }
+  DescriptorLimit(const DescriptorLimit&) = delete;
+  DescriptorLimit& operator=(const DescriptorLimit&) = delete;
+  ~DescriptorLimit() { setrlimit(RLIMIT_NOFILE, &before_); }
+  bool is_set = false;
+
+ private:
+  rlimit before_{};
+};
+
+TEST(ModbusServer, RefusesDescriptorsThatASetCannotHold) {
+  const DescriptorLimit limit(FD_SETSIZE + 100);
+  if (!limit.is_set) GTEST_SKIP() << "this machine allows too few descriptors";
+  const auto server = start_server();
+  std::vector<int> filling;
+  while (filling.empty() || filling.back() < FD_SETSIZE) filling.push_back(dup(STDERR_FILENO));
+  EXPECT_TRUE(RawClient(*server).is_closed());
+  for (const int descriptor : filling) close(descriptor);
+  RawClient raw(*server);
+  raw.send_bytes(read_one_input);
+  EXPECT_EQ(raw.receive_bytes().size(), 11U);
+}
+
+TEST(ModbusServer, WaitsCalmlyForDescriptors) {
+  const auto server = start_server();
+  std::vector<int> filling;
+  while (filling.empty() || filling.back() < 200) filling.push_back(dup(STDERR_FILENO));
+  std::unique_ptr<RawClient> raw;
+  {
+    const DescriptorLimit limit(static_cast<rlim_t>(filling.back()) + 1);
+    ASSERT_TRUE(limit.is_set);
+    close(filling.back());
+    filling.pop_back();
+    raw = std::make_unique<RawClient>(*server);
+    raw->send_bytes(read_one_input);
+    const std::uint64_t before = server->progress_count();
+    EXPECT_TRUE(raw->receive_bytes(300ms).empty());
+    EXPECT_LT(server->progress_count() - before, 30U) << "the server spins";
+  }
+  EXPECT_EQ(raw->receive_bytes().size(), 11U);
+  for (const int descriptor : filling) close(descriptor);
 }
 
 TEST(ModbusServer, RefusesClientsThatAreNotOnTheList) {
@@ -316,16 +373,16 @@ TEST(ModbusServer, ListensOnIpVersionSix) {
 
 TEST(ModbusServer, ClearsResultValidWhenThePlcFallsSilent) {
   ServerOptions options;
-  options.heartbeat_timeout = 150ms;
+  options.heartbeat_timeout = 800ms;
   const auto server = start_server(options);
   Worker worker(*server, pick_for);
   ModbusClient client = connect_to(*server);
   ASSERT_TRUE(client.write_heartbeat(1).ok());
   ASSERT_TRUE(client.trigger({}).ok());
-  ASSERT_TRUE(client.wait_done(2000ms).ok());
+  ASSERT_TRUE(client.wait_done(patience).ok());
   EXPECT_TRUE(client.read_outputs().value().plc_alive);
   EXPECT_TRUE(client.read_outputs().value().result_valid);
-  std::this_thread::sleep_for(300ms);
+  std::this_thread::sleep_for(1000ms);
   EXPECT_FALSE(client.read_outputs().value().result_valid);
   EXPECT_FALSE(client.read_outputs().value().plc_alive);
   ASSERT_TRUE(client.write_heartbeat(2).ok());
@@ -338,7 +395,7 @@ TEST(ModbusServer, AnswersForAWorkerThatHangs) {
   const auto server = start_server(options);
   ModbusClient client = connect_to(*server);
   ASSERT_TRUE(client.trigger({.request_id = 8}).ok());
-  const Result<HandshakeOutputs> out = client.wait_done(2000ms);
+  const Result<HandshakeOutputs> out = client.wait_done(patience);
   ASSERT_TRUE(out.ok());
   EXPECT_TRUE(out.value().error);
   EXPECT_FALSE(out.value().result_valid);
@@ -380,7 +437,7 @@ TEST(ModbusServer, ReadsNeverTearUnderConcurrentCommits) {
     });
   }
   ModbusClient client = connect_to(*server);
-  constexpr int rounds = 2000;
+  constexpr int rounds = 1000;
   int valid = 0;
   for (int i = 0; i < rounds; ++i) {
     ASSERT_TRUE(client.write_request({.request_id = static_cast<std::uint16_t>(i)}).ok());

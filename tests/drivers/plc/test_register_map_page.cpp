@@ -142,6 +142,7 @@ TEST(RegisterMapPage, ExamplesWorkWithTheRealMbpoll) {
   if (run("mbpoll -V").status != 0) GTEST_SKIP() << "mbpoll is not installed";
   const auto server = start_server();
   Worker worker(*server, pick_for);
+  ModbusClient client = connect_to(*server);
   std::vector<Outcome> outcomes;
   const std::string host = "192.168.0.10";
   const Page page = register_map();
@@ -151,7 +152,7 @@ TEST(RegisterMapPage, ExamplesWorkWithTheRealMbpoll) {
     line.replace(line.find(host), host.size(), "-p " + std::to_string(server->port()) + " 127.0.0.1");
     outcomes.push_back(run(line));
     EXPECT_EQ(outcomes.back().status, 0) << line << "\n" << outcomes.back().text;
-    std::this_thread::sleep_for(20ms);
+    while (client.read_outputs().value().busy) std::this_thread::sleep_for(1ms);
   }
   ASSERT_EQ(outcomes.size(), 9U);
   EXPECT_EQ(value_of(outcomes[0].text, discrete_input::ready), "1") << outcomes[0].text;
@@ -162,7 +163,6 @@ TEST(RegisterMapPage, ExamplesWorkWithTheRealMbpoll) {
   EXPECT_EQ(value_of(outcomes[4].text, block::test_word), "4660");
   EXPECT_EQ(value_of(outcomes[5].text, block::pick_pose + 4), "500") << outcomes[5].text;
   EXPECT_EQ(value_of(outcomes[6].text, block::pick_pose_scaled + 4), "500000") << outcomes[6].text;
-  ModbusClient client = connect_to(*server);
   EXPECT_FALSE(client.read_outputs().value().done);
   EXPECT_TRUE(client.read_outputs().value().ready);
 }
@@ -171,8 +171,8 @@ TEST(RealClient, PymodbusGoesThroughTheHandshake) {
   if (run("/usr/bin/python3 -c 'import pymodbus'").status != 0) GTEST_SKIP() << "python3-pymodbus is not installed";
   const auto server = start_server();
   Worker worker(*server, pick_for);
-  const Outcome outcome =
-      run("/usr/bin/python3 " GRASPD_SOURCE_DIR "/tests/drivers/plc/pymodbus_handshake.py " + std::to_string(server->port()));
+  const Outcome outcome = run("/usr/bin/python3 " GRASPD_SOURCE_DIR "/tests/drivers/plc/pymodbus_handshake.py " +
+                              std::to_string(server->port()));
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_EQ(worker.requests.load(), 20);
 }
