@@ -17,11 +17,11 @@ namespace graspd {
 
 /// The thresholds of the four tests (paper 2.4.2 and 3.2), as the bank carries them for its part.
 struct VerifyThresholds {
-  float minimum_edge = 0.1F;      ///< Edge consistency must be greater.
-  float minimum_overlap = 0.1F;   ///< Share of the model's visible surface that the scene confirms.
+  float minimum_edge = 0.5F;     ///< Edge consistency on a flat surface must be greater; on a shaped one less will do.
+  float minimum_overlap = 0.1F;  ///< Share of the model's visible surface that the scene confirms.
   float maximum_boundary = 0.15F;  ///< Share of the model's points that stand where the scene shows free space.
-  float maximum_below = 0.05F;    ///< Share of the model's points below the plane or inside other instances.
-  float minimum_score = 0.4F;     ///< Default acceptance threshold on the final score.
+  float maximum_below = 0.05F;     ///< Share of the model's points below the plane or inside other instances.
+  float minimum_score = 0.4F;      ///< Default acceptance threshold on the final score.
 };
 
 /// What a bank says of its part. Lengths in metres, part frame.

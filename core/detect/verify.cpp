@@ -1,5 +1,6 @@
 #include "core/detect/verify.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -75,14 +76,15 @@ struct OutlineCount {
 };
 
 /// Looks beyond the rim at (u, v) in direction (du, dv): a surface that goes on there, as the extension
-/// of the one inside, contradicts the rim. Sensors round edges off, so one step away from it suffices.
+/// of the one inside, contradicts the rim. Sensors round edges off, so the majority of a few cells decides.
 void judge_rim(const SceneMap& map, const RenderedModel& model, int u, int v, int du, int dv, float tolerance,
                OutlineCount& count) {
   constexpr int first = 2;
-  constexpr int last = 4;
+  constexpr int last = 6;
   const MapCell& inside = map.at(model.rectangle.left + u, model.rectangle.top + v);
   const float front = model.front[model.camera.index(u, v)];
-  bool seen = false;
+  int seen = 0;
+  int going_on = 0;
   for (int k = first; k <= last; ++k) {
     // Beyond a narrow gap, such as one between teeth, the model itself goes on.
     const int x = u + k * du;
@@ -93,16 +95,27 @@ void judge_rim(const SceneMap& map, const RenderedModel& model, int u, int v, in
     if (!beyond.measured()) continue;
     // What stands in front hides whether the surface ends.
     if (beyond.point.z() - front < -4.0F * tolerance) break;
-    seen = true;
-    const bool goes_on = beyond.foreground != 0 && inside.has_normal() && beyond.has_normal() &&
-                         std::abs(inside.normal.dot(beyond.point - inside.point)) < tolerance &&
-                         inside.normal.dot(beyond.normal) > 0.9F;
-    if (!goes_on) {
-      ++count.consistent;
-      return;
-    }
+    ++seen;
+    if (beyond.foreground == 0 || !inside.has_normal()) continue;
+    const bool on_plane = std::abs(inside.normal.dot(beyond.point - inside.point)) < tolerance;
+    going_on += on_plane && (!beyond.has_normal() || inside.normal.dot(beyond.normal) > 0.85F) ? 1 : 0;
   }
-  count.inconsistent += seen ? 1 : 0;
+  if (seen > 0) ++(2 * going_on > seen ? count.inconsistent : count.consistent);
+}
+
+/// 0 for normals that are all alike, up to 2/3 for normals that point everywhere.
+float relief_of(const Matrix3& normal_scatter) {
+  Eigen::SelfAdjointEigenSolver<Matrix3> solver;
+  solver.computeDirect(normal_scatter, Eigen::EigenvaluesOnly);
+  return std::clamp(1.0F - solver.eigenvalues().maxCoeff(), 0.0F, 1.0F);
+}
+
+/// How much the outline counts: all on a flat surface, which fits anywhere in its plane, and little on a
+/// shape that only fits itself.
+float outline_weight(float relief) {
+  constexpr float flat = 0.05F;
+  constexpr float shaped = 0.25F;
+  return std::clamp((shaped - relief) / (shaped - flat), 0.3F, 1.0F);
 }
 
 }  // namespace
@@ -135,6 +148,8 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   float below = 0;
   float squares = 0;
   OutlineCount outline;
+  Matrix3 normals = Matrix3::Zero();
+  float normal_count = 0;
   float depth_sum = 0;
   for (int v = 0; v < model.rectangle.height; ++v) {
     for (int u = 0; u < model.rectangle.width; ++u) {
@@ -162,6 +177,10 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
       counts[static_cast<std::size_t>(verdict.verdict)] += 1.0F;
       if (verdict.verdict != CellVerdict::confirmed) continue;
       squares += verdict.distance * verdict.distance;
+      if (cell.has_normal()) {
+        normals += cell.normal * cell.normal.transpose();
+        normal_count += 1.0F;
+      }
       if (!rim) continue;
       for (const auto& [du, dv] : directions) {
         if (!rendered_at(model, u + du, v + dv)) judge_rim(map, model, u, v, du, dv, tolerance, outline);
@@ -182,6 +201,7 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   evidence.residual = confirmed > 0.0F ? std::sqrt(squares / confirmed) / bank.part->sampling : 0.0F;
   const float voxel_cells = bank.part->sampling / map.footprint(depth_sum / rendered);
   evidence.confirmed = confirmed / (voxel_cells * voxel_cells);
+  evidence.relief = normal_count > 0.0F ? relief_of(normals / normal_count) : 0.0F;
   const int decided = outline.consistent + outline.inconsistent;
   evidence.edge = decided > 0 ? static_cast<float>(outline.consistent) / static_cast<float>(decided) : 1.0F;
   return evidence;
@@ -190,9 +210,11 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
 float score_of(const Evidence& evidence) {
   // A logistic regression over refined hypotheses of simulated bins, right or wrong by MSSD.
   const auto log_odds = [](float share) { return std::log((share + 0.02F) / (1.02F - share)); };
-  const float sum = -3.4F + 0.5F * log_odds(evidence.visible) + 0.5F * std::log1p(evidence.confirmed) +
-                    0.9F * log_odds(evidence.purity) + 0.4F * log_odds(evidence.edge) - 15.0F * evidence.boundary -
-                    22.0F * evidence.below - 7.0F * evidence.residual;
+  // The outline of a right pose agrees at least in nine of ten places; that is taken as given.
+  const float outline = outline_weight(evidence.relief) * (log_odds(evidence.edge) - log_odds(0.9F));
+  const float sum = -3.0F + 0.5F * log_odds(evidence.visible) + 0.5F * std::log1p(evidence.confirmed) +
+                    0.9F * log_odds(evidence.purity) + outline - 15.0F * evidence.boundary - 22.0F * evidence.below -
+                    7.0F * evidence.residual;
   return evidence.confirmed > 0.0F ? 1.0F / (1.0F + std::exp(-sum)) : 0.0F;
 }
 
@@ -201,7 +223,7 @@ Rejection failed_test(const Evidence& evidence, const VerifyParameters& paramete
   if (evidence.measured < parameters.minimum_measured) return Rejection::weak;
   if (evidence.overlap < thresholds.minimum_overlap) return Rejection::overlap;
   if (evidence.boundary > thresholds.maximum_boundary) return Rejection::boundary;
-  if (evidence.edge < thresholds.minimum_edge) return Rejection::edge;
+  if (evidence.edge < thresholds.minimum_edge * outline_weight(evidence.relief)) return Rejection::edge;
   if (evidence.below > thresholds.maximum_below) return Rejection::below_plane;
   return Rejection::none;
 }
