@@ -1,7 +1,6 @@
 #include "drivers/files/depth_image.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "drivers/files/atomic_file.hpp"
@@ -26,9 +25,12 @@ Result<DepthImage> read_depth_image(const std::filesystem::path& path) {
 }
 
 void scale_depth(const DepthImage& image, float depth_scale, std::span<float> depth) {
+  // Some writers of float images mark what was not measured with a huge number.
+  constexpr double farthest = 1000.0;
   const double factor = static_cast<double>(depth_scale) / 1000.0;
   std::transform(image.values.begin(), image.values.end(), depth.begin(), [&](float value) {
-    return std::isfinite(value) && value > 0.0F ? static_cast<float>(value * factor) : 0.0F;
+    const double metres = value * factor;
+    return metres > 0.0 && metres < farthest ? static_cast<float>(metres) : 0.0F;
   });
 }
 

@@ -23,7 +23,7 @@ struct DepthImage {
 [[nodiscard]] Result<DepthImage> read_depth_image(const std::filesystem::path& path);
 
 /// Turns file values into metres: value * depth_scale / 1000, into `depth` of the image's size.
-/// Values that are not finite or not positive become 0.
+/// What is no number, not positive or a kilometre away becomes 0.
 void scale_depth(const DepthImage& image, float depth_scale, std::span<float> depth);
 
 /// Fails with bad_frame, naming both sizes, when the image is not as large as the camera's.

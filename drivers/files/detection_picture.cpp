@@ -16,7 +16,6 @@ namespace {
 constexpr Colour white{255, 255, 255};
 constexpr Colour black{0, 0, 0};
 constexpr Colour paper{24, 26, 33};
-constexpr Colour pick_colour{255, 240, 60};
 constexpr std::array<Colour, 3> axis_colours{{{255, 70, 70}, {80, 230, 80}, {80, 140, 255}}};
 
 /// A frame whose pixels are repeated `factor` times, and the camera that fits it.
@@ -115,13 +114,13 @@ std::string score_text(float score) {
   return text.data();
 }
 
-void draw_pose(const Drafter& drafter, const DrawnInstance& instance, std::size_t number, int scale) {
+void draw_pose(const Drafter& drafter, const DrawnInstance& instance, const std::string& label, int scale) {
   const Extent extent = extent_of(instance);
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 tip = extent.centre + 0.45F * extent.radius * instance.camera_from_part.rotation.col(axis);
     drafter.line(extent.centre, tip, axis_colours[static_cast<std::size_t>(axis)], 1.5F);
   }
-  drafter.label(extent.centre, 10 * scale, std::to_string(number) + " " + score_text(instance.score), white, scale);
+  drafter.label(extent.centre, 10 * scale, label, white, scale);
 }
 
 void draw_pick(const Drafter& drafter, const DrawnInstance& instance, const DrawnPick& pick, const Camera& camera,
@@ -195,9 +194,16 @@ Picture draw_detections(const DepthFrame& frame, std::span<const DrawnInstance> 
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) scene.at(u, v) = ground.at(u / large.factor, v / large.factor);
   }
-  draw_instances(scene, large.frame, map_instances(camera, instances));
+  const std::uint32_t picked = pick ? static_cast<std::uint32_t>(pick->instance) : InstanceMap::nothing;
+  draw_instances(scene, large.frame, map_instances(camera, instances), picked);
   const Drafter drafter(scene, camera);
-  for (std::size_t i = 0; i < instances.size(); ++i) draw_pose(drafter, instances[i], i + 1, scale);
+  // In a crowd the plates would hide the parts: the legend has the scores then.
+  constexpr std::size_t crowd = 8;
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const std::string number = std::to_string(i + 1);
+    const bool roomy = instances.size() < crowd;
+    draw_pose(drafter, instances[i], roomy ? number + " " + score_text(instances[i].score) : number, scale);
+  }
   if (pick && pick->instance < instances.size()) {
     draw_pick(drafter, instances[pick->instance], *pick, camera, scale);
   }

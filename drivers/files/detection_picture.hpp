@@ -29,7 +29,8 @@ struct DrawnPick {
 };
 
 /// The depth frame with every instance laid over it: translucent in a colour of its own, its outline,
-/// the axes of its frame, its number and score; nearer instances hide farther ones. The pick is marked
+/// the axes of its frame, its number and, while
+/// there is room, its score; nearer instances hide farther ones. The pick is marked
 /// by a ring, the tool's axes, the way of its approach and its jaws. A legend with `caption` stands
 /// below. Small frames are enlarged.
 [[nodiscard]] Picture draw_detections(const DepthFrame& frame, std::span<const DrawnInstance> instances,

@@ -1,8 +1,6 @@
 #include "drivers/files/instance_overlay.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/geometry/depth_render.hpp"
 
@@ -14,18 +12,23 @@ namespace {
 constexpr float hiding_step = 0.004F;
 constexpr float fill_share = 0.42F;
 
-/// True where the silhouette of an instance, or a step within it, begins: at the nearer side of it.
-bool is_outline(const DepthFrame& frame, const InstanceMap& map, int u, int v) {
+/// True within `thickness` pixels of where an instance, or a step in it, ends: on the nearer side.
+bool is_outline(const DepthFrame& frame, const InstanceMap& map, int u, int v, int thickness) {
   const std::size_t here = frame.camera.index(u, v);
   const float step = 12.0F * map.depth[here] / frame.camera.fx + 0.001F;
-  constexpr std::array<std::array<int, 2>, 4> neighbours{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-  return std::any_of(neighbours.begin(), neighbours.end(), [&](const std::array<int, 2>& n) {
-    if (!frame.camera.contains(u + n[0], v + n[1])) return false;
-    const std::size_t there = frame.camera.index(u + n[0], v + n[1]);
-    if (map.instance[there] == InstanceMap::nothing) return true;
-    if (map.instance[there] != map.instance[here]) return map.depth[here] <= map.depth[there];
-    return map.depth[there] - map.depth[here] > step;
-  });
+  constexpr std::array<std::array<int, 2>, 4> directions{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  for (int reach = 1; reach <= thickness; ++reach) {
+    for (const auto& [du, dv] : directions) {
+      const int nu = u + reach * du;
+      const int nv = v + reach * dv;
+      if (!frame.camera.contains(nu, nv)) continue;
+      const std::size_t there = frame.camera.index(nu, nv);
+      if (map.instance[there] == InstanceMap::nothing) return true;
+      const bool other = map.instance[there] != map.instance[here];
+      if (other ? map.depth[here] <= map.depth[there] : map.depth[there] - map.depth[here] > step) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -53,7 +56,8 @@ InstanceMap map_instances(const Camera& camera, std::span<const DrawnInstance> i
   return map;
 }
 
-void draw_instances(Picture& picture, const DepthFrame& frame, const InstanceMap& map) {
+void draw_instances(Picture& picture, const DepthFrame& frame, const InstanceMap& map, std::uint32_t picked) {
+  const int thin = picture.width >= 1000 ? 2 : 1;
   for (int v = 0; v < frame.camera.height; ++v) {
     for (int u = 0; u < frame.camera.width; ++u) {
       const std::size_t place = frame.camera.index(u, v);
@@ -61,8 +65,10 @@ void draw_instances(Picture& picture, const DepthFrame& frame, const InstanceMap
       const Colour colour = distinct_colour(map.instance[place]);
       const float scene = frame.depth[place];
       const bool hidden = scene > 0.0F && scene < map.depth[place] - hiding_step;
-      if (is_outline(frame, map, u, v)) {
-        draw_pixel(picture, u, v, blend(colour, {255, 255, 255}, 0.35F), hidden ? 0.35F : 1.0F);
+      const bool is_picked = map.instance[place] == picked;
+      if (is_outline(frame, map, u, v, is_picked ? 2 * thin : thin)) {
+        const Colour line = is_picked ? pick_colour : blend(colour, {255, 255, 255}, 0.35F);
+        draw_pixel(picture, u, v, line, hidden ? 0.35F : 1.0F);
       } else if (!hidden) {
         draw_pixel(picture, u, v, colour, fill_share);
       }

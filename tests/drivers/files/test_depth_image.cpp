@@ -125,13 +125,14 @@ TEST_F(DepthImageFile, TiffOfBothKindsInStripsAndTiles) {
 }
 
 TEST_F(DepthImageFile, DepthIsInMetres) {
-  DepthImage image{4, 1, {7500.0F, 0.0F, -3.0F, std::nanf("")}};
-  std::vector<float> depth(4, 9.0F);
+  DepthImage image{5, 1, {7500.0F, 0.0F, -3.0F, std::nanf(""), 1e30F}};
+  std::vector<float> depth(5, 9.0F);
   scale_depth(image, 0.1F, depth);
   EXPECT_FLOAT_EQ(depth[0], 0.75F);
   EXPECT_EQ(depth[1], 0.0F);
   EXPECT_EQ(depth[2], 0.0F);
   EXPECT_EQ(depth[3], 0.0F);
+  EXPECT_EQ(depth[4], 0.0F);
 }
 
 TEST_F(DepthImageFile, WrongSizeNamesBoth) {

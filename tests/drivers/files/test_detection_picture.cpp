@@ -40,7 +40,7 @@ TEST_F(DetectionPicture, InstanceIsFilledWhereItIsSeenOnly) {
   const std::array<DrawnInstance, 2> instances{square_at(0, 0.48F), square_at(0.06F, 0.6F)};
   const Picture ground = colour_depth(frame_);
   Picture picture = ground;
-  draw_instances(picture, frame_, map_instances(camera_, instances));
+  draw_instances(picture, frame_, map_instances(camera_, instances), InstanceMap::nothing);
   EXPECT_FALSE(same(picture.at(105, 80), ground.at(105, 80)));
   EXPECT_TRUE(same(picture.at(20, 20), ground.at(20, 20)));
   // The second lies behind the ground that was measured: no fill, a faint outline.
