@@ -28,11 +28,10 @@ struct DrawnPick {
   float opening = 0;  ///< Metres; 0: no jaws.
 };
 
-/// The depth frame with every instance laid over it: translucent in a colour of its own, its outline,
-/// the axes of its frame, its number and, while
-/// there is room, its score; nearer instances hide farther ones. The pick is marked
-/// by a ring, the tool's axes, the way of its approach and its jaws. A legend with `caption` stands
-/// below. Small frames are enlarged.
+/// The depth frame with every instance laid over it: translucent in a colour of its own, its outline, the
+/// axes of its frame at the middle of its box, its number and, while there is room, its score; nearer
+/// instances hide farther ones. The pick is marked by a ring, its outline, the tool's axes, the way of its
+/// approach and its jaws. A legend with `caption` stands below. Small frames are enlarged.
 [[nodiscard]] Picture draw_detections(const DepthFrame& frame, std::span<const DrawnInstance> instances,
                                       const std::optional<DrawnPick>& pick, std::string_view caption);
 
