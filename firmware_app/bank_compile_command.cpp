@@ -31,15 +31,19 @@ void print_report(const std::string& path, std::size_t bytes, const BankReport& 
   std::fflush(stdout);
 }
 
-/// Builds one bank and writes it. `label` names it on the progress bar.
-Status compile_one(const PartDescription& part, const BankBuildParameters& build, const std::string& output,
-                   const std::string& label) {
+/// Builds one bank and writes it. `mesh_file` stands in complaints, `label` on the progress bar.
+Status compile_one(const PartDescription& part, const BankBuildParameters& build, const std::string& mesh_file,
+                   const std::string& output, const std::string& label) {
   BankReport report;
   ProgressBar bar;
   const Result<std::vector<std::byte>> bytes =
       build_bank(part, build, report, [&](float share) { bar.show(label, share); });
   bar.clear();
-  if (!bytes.ok()) return bytes.status();
+  if (!bytes.ok()) {
+    const std::string_view message = bytes.status().message();
+    return Status::format(bytes.status().code(), "%s: %.*s", mesh_file.c_str(), static_cast<int>(message.size()),
+                          message.data());
+  }
   if (const Result<Bank> bank = read_bank(bytes.value(), output); !bank.ok()) {
     return Status::format(StatusCode::internal, "the bank that was made cannot be read back: %.*s",
                           static_cast<int>(bank.status().message().size()), bank.status().message().data());
@@ -57,7 +61,7 @@ Status compile_part_file(const CompileOptions& options) {
   Result<Mesh> mesh = read_mesh(part_file.mesh_path, part_file.mesh_unit);
   if (!mesh.ok()) return mesh.status();
   part_file.part.mesh = std::move(mesh).value();
-  return compile_one(part_file.part, part_file.build, options.output, part_file.part.name);
+  return compile_one(part_file.part, part_file.build, part_file.mesh_path, options.output, part_file.part.name);
 }
 
 Result<PartDescription> describe(const BopModel& model, const std::string& name) {
@@ -94,7 +98,8 @@ Status compile_bop(const CompileOptions& options) {
     ++done;
     const std::string label =
         std::string(name) + " (" + std::to_string(done) + " of " + std::to_string(models.value().size()) + ")";
-    if (Status compiled = compile_one(part.value(), {}, output, label); !compiled.ok()) return compiled;
+    if (Status compiled = compile_one(part.value(), {}, model.mesh_file.string(), output, label); !compiled.ok())
+      return compiled;
   }
   return {};
 }

@@ -3,31 +3,64 @@
 #include <memory>
 #include <string>
 
+#include "drivers/files/atomic_file.hpp"
 #include "firmware_app/commands.hpp"
 #include "firmware_app/configuration.hpp"
+#include "firmware_app/frame_sources.hpp"
+#include "firmware_app/loaded_banks.hpp"
+#include "firmware_app/memory_plan.hpp"
 
 namespace graspd {
 namespace {
 
-struct CheckOptions {
-  std::string configuration = "/etc/graspd/graspd.toml";
-};
+void print_banks(const LoadedBanks& banks) {
+  for (std::size_t i = 0; i < banks.banks.size(); ++i) {
+    const Bank& bank = banks.banks[i];
+    std::printf("bank           %s: part %u, %.*s, %zu views, %zu grasps\n", banks.paths[i].c_str(), bank.part->part_id,
+                static_cast<int>(bank.part->name_view().size()), bank.part->name_view().data(), bank.views.size(),
+                bank.grasps.size());
+    if (bank.grasps.empty()) {
+      std::printf("               note: its part file lists no [[grasp]], so it will be found but never picked\n");
+    }
+  }
+}
 
-Status check(const CheckOptions& options) {
-  const Result<Configuration> configuration = read_configuration(options.configuration);
-  if (!configuration.ok()) return configuration.status();
-  std::printf("configuration  %s: fine\n", options.configuration.c_str());
-  return {};
+Status check(const std::string& path) {
+  const std::size_t baseline = resident_bytes();
+  const Result<Configuration> read = read_configuration(path);
+  if (!read.ok()) return read.status();
+  const Configuration& configuration = read.value();
+  std::printf("configuration  %s: fine\n", path.c_str());
+  const Result<LoadedBanks> banks = load_banks(configuration.banks);
+  if (!banks.ok()) return banks.status();
+  print_banks(banks.value());
+  const Result<OpenedSource> frames = open_source(configuration.camera);
+  if (!frames.ok()) return frames.status();
+  const FrameLimits limits = frames.value().source->limits();
+  std::printf("frames         up to %d x %d pixels\n", limits.maximum_width, limits.maximum_height);
+  if (!configuration.picture.empty()) {
+    if (Status writable = check_writable(configuration.picture); !writable.ok()) return writable;
+  }
+  const MemoryPlan plan = plan_memory(configuration, banks.value(), limits, frames.value().bytes, baseline);
+  std::printf("\n%s", memory_table(plan, configuration.memory_budget).c_str());
+  std::fflush(stdout);
+  return check_budget(configuration, plan);
 }
 
 }  // namespace
 
 void add_check_command(CLI::App& command_line, Status& outcome) {
-  auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = command_line.add_subcommand("check", "Check a configuration, without serving anybody");
-  command->add_option("--config", options->configuration, "Configuration file")->capture_default_str();
-  command->footer("Example:\n  graspd check --config /etc/graspd/graspd.toml");
-  command->callback([options, &outcome] { outcome = check(*options); });
+  auto path = std::make_shared<std::string>("/etc/graspd/graspd.toml");
+  CLI::App* command = command_line.add_subcommand("check", "Check configuration, banks and memory budget");
+  command->add_option("--config", *path, "Configuration file")->capture_default_str();
+  command->footer(
+      "Does what `graspd run` does before it serves anybody: reads the configuration, checks every\n"
+      "bank, opens the frames, and prints the memory that the daemon would take, owner by owner.\n"
+      "Ends with code 7 when that is more than memory.budget.\n"
+      "\n"
+      "Example:\n"
+      "  graspd check --config /etc/graspd/graspd.toml");
+  command->callback([path, &outcome] { outcome = check(*path); });
 }
 
 }  // namespace graspd

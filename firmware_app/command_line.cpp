@@ -64,6 +64,7 @@ int run_command_line(int argument_count, const char* const* arguments) {
   app.footer(exit_codes);
   app.set_version_flag("--version", "graspd " GRASPD_VERSION);
   app.require_subcommand(1);
+  add_run_command(app, outcome);
   add_detect_command(app, outcome);
   CLI::App* bank = app.add_subcommand("bank", "Make banks and look into them");
   bank->require_subcommand(1);

@@ -49,7 +49,7 @@ struct Configuration {
   std::vector<std::string> banks;
   DetectSettings detect;
   GraspSettings grasp;
-  ServerOptions plc;
+  ServerOptions modbus;
   std::size_t memory_budget = std::size_t{512} << 20U;  ///< Bytes.
   bool memory_lock = true;
   std::string picture;  ///< Where the latest annotated picture goes; empty: nowhere.

@@ -26,14 +26,8 @@ void read_match(SettingsTable table, DetectParameters& parameters) {
   table.read("reference_step", parameters.match.reference_step, 1, 100);
   table.read("peaks_per_reference", parameters.match.peaks_per_reference, 1, 100);
   table.read("minimum_peak_share", parameters.match.minimum_peak_share, 0, 1);
-  table.read("cluster_rotation", parameters.cluster.rotation, 1, 90, radians_per_degree);
-  table.read("cluster_translation", parameters.cluster.translation, 0.1, 20);
   table.read("plausible", parameters.cluster.plausible, 1, 100000);
   table.read("judged", parameters.refine.judged, 1, 100000);
-  table.read("coarse_iterations", parameters.refine.coarse_iterations, 0, 200);
-  table.read("coarse_points", parameters.refine.coarse_points, 10, 100000);
-  table.read("fine_iterations", parameters.refine.fine_iterations, 0, 200);
-  table.read("fine_points", parameters.refine.fine_points, 10, 100000);
   table.read("verify_tolerance", parameters.verify.tolerance, 0.05, 5);
   table.read("minimum_measured", parameters.verify.minimum_measured, 0, 1);
   table.finish();

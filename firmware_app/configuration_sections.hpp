@@ -13,7 +13,7 @@ void read_detect_section(SettingsTable table, const RigidTransform& robot_from_c
 void read_limits_section(SettingsTable table, DetectCapacity& detect, GraspCapacity& grasp);
 void read_grasp_section(SettingsTable table, GraspParameters& grasp);
 void read_gripper_section(SettingsTable table, GripperParameters& gripper);
-void read_plc_section(SettingsTable table, ServerOptions& plc);
+void read_modbus_section(SettingsTable table, ServerOptions& modbus);
 
 inline constexpr double metres_per_millimetre = 0.001;
 inline constexpr double radians_per_degree = 0.017453292519943295;

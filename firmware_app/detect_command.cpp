@@ -96,9 +96,12 @@ void add_detect_command(CLI::App& command_line, Status& outcome) {
   command->add_option("--bank", options->banks, "Banks of the parts to look for")->required();
   command->add_option("--empty", options->empty, "The bin without parts, same kind of file (else the scene's own)");
   command->add_flag("--no-background", options->no_background, "Do without a frame of the empty bin");
-  command->add_option("--units", options->units, "Units of a cloud: m or mm")->capture_default_str();
-  command->add_option("--axes", options->axes, "Axes of a cloud: opencv (y down, z away) or opengl (y up, z near)")
-      ->capture_default_str();
+  command->add_option("--units", options->units, "Units of a cloud")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"m", "mm"}));
+  command->add_option("--axes", options->axes, "Axes of a cloud: y down and z away (opencv), or y up and z near (opengl)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"opencv", "opengl"}));
   command->add_option("--camera", options->camera, "Intrinsics of a depth image, as camera.json");
   command->add_option("--threads", options->threads, "Threads; the result does not depend on them")
       ->capture_default_str()

@@ -50,7 +50,7 @@ struct MemoryPlan {
 [[nodiscard]] std::size_t resident_bytes();
 
 /// Stack of each thread of the daemon. Small, since a locked stack is resident whether used or not.
-inline constexpr std::size_t thread_stack_bytes = std::size_t{1} << 20U;
+inline constexpr std::size_t thread_stack_bytes = std::size_t{2} << 20U;
 
 /// Plans the memory of `graspd run` for this configuration. `baseline` is resident_bytes() of the bare
 /// process, `recorded_bytes` what a recorded source keeps.

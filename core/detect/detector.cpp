@@ -115,7 +115,13 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
       scene.foreground_cells * static_cast<std::uint32_t>(scene.map.stride * scene.map.stride);
   clock.end_of(Stage::preprocess);
 
+  if (scene.measured_pixels == 0) return {StatusCode::bad_frame, "nothing in the frame was measured"};
+
   for (std::uint32_t b = 0; b < request.banks.size(); ++b) {
+    if (late(request)) {
+      detections.flags |= flag_deadline;
+      break;
+    }
     const Bank& bank = request.banks[b];
     const float reach = bank.grid.distance_step * static_cast<float>(bank.grid.distance_bins);
     const NeighbourGrid points = sample_for(scene, bank.part->sampling, reach, workspace.preprocess);
@@ -136,11 +142,8 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
 
     judge_clusters(scene, request, b, parameters, workspace, detections);
     clock.end_of(Stage::verify);
-    if (late(request)) {
-      detections.flags |= flag_deadline;
-      break;
-    }
   }
+  if (late(request)) detections.flags |= flag_deadline;
 
   detections.flags |=
       select_instances(scene.map, request.banks, parameters.verify, request.minimum_score, workspace.judged.span(),

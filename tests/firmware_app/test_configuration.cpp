@@ -62,8 +62,8 @@ TEST_F(ConfigurationFile, MalformedTomlNamesTheLine) {
 }
 
 TEST_F(ConfigurationFile, UnknownKeyNamesTheNearestOne) {
-  EXPECT_EQ(complaint(std::string(smallest) + "[plc]\nadress = \"::\"\n"),
-            "graspd.toml:6: unknown key plc.adress; did you mean plc.address?");
+  EXPECT_EQ(complaint(std::string(smallest) + "[modbus]\nadress = \"::\"\n"),
+            "graspd.toml:6: unknown key modbus.adress; did you mean modbus.address?");
   EXPECT_EQ(complaint(std::string(smallest) + "[memroy]\nbudget = \"1 GiB\"\n"),
             "graspd.toml:5: unknown key memroy; did you mean memory?");
   EXPECT_EQ(complaint(std::string(smallest) + "[output]\nxyzzy = 1\n"),
@@ -72,15 +72,15 @@ TEST_F(ConfigurationFile, UnknownKeyNamesTheNearestOne) {
 }
 
 TEST_F(ConfigurationFile, WrongTypeSaysWhatIsExpected) {
-  EXPECT_EQ(complaint(std::string(smallest) + "[plc]\nport = \"502\"\n"),
-            "graspd.toml:6: plc.port must be a whole number, but is a text in quotes");
+  EXPECT_EQ(complaint(std::string(smallest) + "[modbus]\nport = \"502\"\n"),
+            "graspd.toml:6: modbus.port must be a whole number, but is a text in quotes");
   EXPECT_EQ(complaint(std::string(smallest) + "[detect]\nsegmentation = 1\n"),
             "graspd.toml:6: detect.segmentation must be true or false, but is a whole number");
 }
 
 TEST_F(ConfigurationFile, ValueOutOfRangeSaysTheRange) {
-  EXPECT_EQ(complaint(std::string(smallest) + "[plc]\nport = 70000\n"),
-            "graspd.toml:6: plc.port must lie between 1 and 65535, but is 70000");
+  EXPECT_EQ(complaint(std::string(smallest) + "[modbus]\nport = 70000\n"),
+            "graspd.toml:6: modbus.port must lie between 0 and 65535, but is 70000");
   EXPECT_EQ(complaint(std::string(smallest) + "[detect]\nminimum_score = nan\n"),
             "graspd.toml:6: detect.minimum_score must lie between 0 and 1, but is nan");
 }
@@ -99,7 +99,8 @@ TEST_F(ConfigurationFile, UnknownChoiceListsWhatIsAllowed) {
 }
 
 TEST_F(ConfigurationFile, TopmostProblemOfTheFileIsTold) {
-  EXPECT_THAT(complaint("banks = 5\n[camera]\nsource = \"recorded\"\npath = 7\n"), StartsWith("graspd.toml:1: banks must"));
+  EXPECT_THAT(complaint("banks = 5\n[camera]\nsource = \"recorded\"\npath = 7\n"),
+              StartsWith("graspd.toml:1: banks must"));
 }
 
 TEST_F(ConfigurationFile, BudgetNeedsAUnit) {

@@ -7,7 +7,7 @@
 namespace graspd {
 namespace {
 
-enum class PlcRole : std::uint8_t { server };
+enum class ModbusRole : std::uint8_t { server };
 
 void read_seconds(SettingsTable& table, std::string_view key, std::chrono::milliseconds& value) {
   float seconds = static_cast<float>(value.count()) * 1e-3F;
@@ -17,8 +17,8 @@ void read_seconds(SettingsTable& table, std::string_view key, std::chrono::milli
 
 }  // namespace
 
-void read_plc_section(SettingsTable table, ServerOptions& plc) {
-  constexpr std::array roles{NamedValue<PlcRole>{"server", PlcRole::server}};
+void read_modbus_section(SettingsTable table, ServerOptions& modbus) {
+  constexpr std::array roles{NamedValue<ModbusRole>{"server", ModbusRole::server}};
   constexpr std::array orders{
       NamedValue<WordOrder>{"abcd", WordOrder::abcd}, NamedValue<WordOrder>{"cdab", WordOrder::cdab},
       NamedValue<WordOrder>{"badc", WordOrder::badc}, NamedValue<WordOrder>{"dcba", WordOrder::dcba}};
@@ -32,21 +32,21 @@ void read_plc_section(SettingsTable table, ServerOptions& plc) {
                                NamedValue<PositionUnit>{"m", PositionUnit::metre}};
   constexpr std::array angles{NamedValue<AngleUnit>{"degree", AngleUnit::degree},
                               NamedValue<AngleUnit>{"radian", AngleUnit::radian}};
-  PlcRole role = PlcRole::server;
-  int port = plc.port;
-  table.read_choice<PlcRole>("role", role, roles);
-  table.read("address", plc.bind_address);
-  table.read("port", port, 1, 65535);
-  plc.port = static_cast<std::uint16_t>(port);
-  table.read("allow", plc.allowed_clients);
-  table.read("maximum_clients", plc.maximum_clients, 1, 64);
-  read_seconds(table, "idle_time", plc.idle_time);
-  read_seconds(table, "heartbeat_timeout", plc.heartbeat_timeout);
-  read_seconds(table, "request_timeout", plc.request_timeout);
-  table.read_choice<WordOrder>("word_order", plc.format.word_order, orders);
-  table.read_choice<PoseConvention>("pose_convention", plc.format.convention, conventions);
-  table.read_choice<PositionUnit>("position_unit", plc.format.length, lengths);
-  table.read_choice<AngleUnit>("angle_unit", plc.format.angle, angles);
+  ModbusRole role = ModbusRole::server;
+  int port = modbus.port;
+  table.read_choice<ModbusRole>("role", role, roles);
+  table.read("address", modbus.bind_address);
+  table.read("port", port, 0, 65535);
+  modbus.port = static_cast<std::uint16_t>(port);
+  table.read("allow", modbus.allowed_clients);
+  table.read("maximum_clients", modbus.maximum_clients, 1, 64);
+  read_seconds(table, "idle_time", modbus.idle_time);
+  read_seconds(table, "heartbeat_timeout", modbus.heartbeat_timeout);
+  read_seconds(table, "request_timeout", modbus.request_timeout);
+  table.read_choice<WordOrder>("word_order", modbus.format.word_order, orders);
+  table.read_choice<PoseConvention>("pose_convention", modbus.format.convention, conventions);
+  table.read_choice<PositionUnit>("position_unit", modbus.format.length, lengths);
+  table.read_choice<AngleUnit>("angle_unit", modbus.format.angle, angles);
   table.finish();
 }
 

@@ -1,0 +1,189 @@
+#include "firmware_app/pick_cycle.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace graspd {
+namespace {
+
+float seconds(std::int64_t nanoseconds) { return static_cast<float>(static_cast<double>(nanoseconds) * 1e-9); }
+
+std::uint16_t register_value(std::size_t value) {
+  return static_cast<std::uint16_t>(std::min<std::size_t>(value, std::numeric_limits<std::uint16_t>::max()));
+}
+
+/// The banks of part number `part`; all of them for 0.
+Status select_banks(std::span<const Bank> banks, std::uint16_t part, std::span<const Bank>& selected) {
+  selected = banks;
+  if (part == 0) return {};
+  for (std::size_t i = 0; i < banks.size(); ++i) {
+    if (banks[i].part->part_id != part) continue;
+    selected = banks.subspan(i, 1);
+    return {};
+  }
+  return Status::format(StatusCode::bad_request, "no bank of part number %u is loaded", unsigned{part});
+}
+
+Status grab(PickCycle& cycle, DepthFrame& frame) {
+  if (Status grabbed = cycle.source->grab(cycle.memory.frame, frame); !grabbed.ok()) return grabbed;
+  const std::int64_t age = frame.captured_ns == 0 ? 0 : cycle.settings.now_ns() - frame.captured_ns;
+  if (age <= cycle.settings.maximum_age_ns) return {};
+  return Status::format(StatusCode::stale_frame, "the frame is %.2f s old, %.2f s are allowed",
+                        static_cast<double>(seconds(age)), static_cast<double>(seconds(cycle.settings.maximum_age_ns)));
+}
+
+DetectRequest detect_request(const PickCycle& cycle, const PlcRequest& request) {
+  DetectRequest detect;
+  detect.banks = cycle.capture.banks;
+  detect.empty_bin = cycle.source->empty_bin();
+  detect.minimum_score = request.minimum_score >= 0 ? request.minimum_score : cycle.settings.minimum_score;
+  detect.now_ns = cycle.settings.now_ns;
+  if (cycle.settings.deadline_ns > 0) detect.deadline_ns = request.received_ns + cycle.settings.deadline_ns;
+  return detect;
+}
+
+/// The test at which most hypotheses fell. Those that were weak from the start or repeat an instance
+/// say nothing of why the others are missing, so they count only when there is no other reason.
+Rejection main_rejection(const Detections& detections) {
+  Rejection main =
+      detections.rejections[static_cast<std::size_t>(Rejection::weak)] > 0 ? Rejection::weak : Rejection::none;
+  std::uint32_t most = 0;
+  for (std::size_t i = 0; i < rejection_count; ++i) {
+    const auto reason = static_cast<Rejection>(i);
+    if (reason == Rejection::none || reason == Rejection::weak || reason == Rejection::duplicate) continue;
+    if (detections.rejections[i] <= most) continue;
+    most = detections.rejections[i];
+    main = reason;
+  }
+  return main;
+}
+
+void put_verdict(const Capture& capture, ResultBlock& block) {
+  const Detections& detections = capture.detections;
+  block.flags = static_cast<std::uint16_t>(detections.flags);
+  block.instances_found = register_value(detections.instances.size());
+  block.pickable = register_value(capture.picks.pickable);
+  if (capture.picks.found) {
+    block.code = ResultCode::ok;
+  } else if (!detections.instances.empty()) {
+    block.code = ResultCode::not_pickable;
+    block.reason = result_reason(capture.picks.main_reason);
+  } else if ((detections.flags & flag_deadline) != 0) {
+    block.code = ResultCode::deadline;
+  } else if (detections.foreground_pixels == 0) {
+    block.code = ResultCode::empty_bin;
+  } else {
+    block.code = ResultCode::no_match;
+    block.reason = result_reason(main_rejection(detections));
+  }
+}
+
+/// Puts the pick that is next in line into the block and counts it as given.
+void put_pick(const PickCycle& cycle, Capture& capture, ResultBlock& block) {
+  const Pick& pick = capture.picks.picks[capture.given++];
+  const Instance& instance = capture.detections.instances[pick.instance];
+  block.code = ResultCode::ok;
+  block.part = register_value(capture.banks[instance.bank].part->part_id);
+  block.view = register_value(instance.view);
+  block.grasp = register_value(pick.grasp);
+  block.score = pick.score;
+  block.remaining = register_value(capture.picks.picks.size() - capture.given);
+  block.result_index = register_value(capture.given);
+  block.opening = pick.opening;
+  block.pick = pick.robot_from_tool;
+  block.approach = pick.robot_from_approach;
+  block.part_pose = pick.robot_from_part;
+  block.frame = cycle.settings.calibrated ? PoseFrame::robot : PoseFrame::camera;
+  block.verified = instance.rejection == Rejection::none;
+}
+
+ResultBlock begin_block(const PlcRequest& request) {
+  ResultBlock block;
+  block.sequence = request.sequence;
+  block.request_id = request.request_id;
+  return block;
+}
+
+void set_time(ResultBlock& block, BlockStage stage, std::int64_t nanoseconds) {
+  block.stage_time[static_cast<std::size_t>(stage)] = seconds(nanoseconds);
+}
+
+void finish_times(const PickCycle& cycle, const PlcRequest& request, ResultBlock& block) {
+  const std::int64_t now = cycle.settings.now_ns();
+  set_time(block, BlockStage::total, now - request.received_ns);
+  const std::int64_t captured = cycle.capture.frame.captured_ns;
+  if (captured != 0) block.frame_age = seconds(now - captured);
+}
+
+Answer failed(const PickCycle& cycle, const PlcRequest& request, const Status& status) {
+  Answer answer{begin_block(request), status};
+  answer.block.code = result_code(status.code());
+  finish_times(cycle, request, answer.block);
+  return answer;
+}
+
+Answer given_up(const PlcRequest& request) {
+  Answer answer{begin_block(request), {}};
+  answer.block.code = ResultCode::given_up;
+  return answer;
+}
+
+Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc) {
+  const auto now = cycle.settings.now_ns;
+  Capture& capture = cycle.capture;
+  // From here on nothing of an earlier frame can reach the registers.
+  capture = {};
+  if (Status known = select_banks(cycle.banks, request.part, capture.banks); !known.ok()) {
+    return failed(cycle, request, known);
+  }
+
+  const std::int64_t start = now();
+  const Status grabbed = grab(cycle, capture.frame);
+  plc.set_camera_ok(grabbed.code() != StatusCode::camera_lost);
+  if (!grabbed.ok()) return failed(cycle, request, grabbed);
+  plc.capture_done(request.sequence);
+  const std::int64_t taken = now();
+  if (!plc.is_wanted(request.sequence)) return given_up(request);
+
+  const Status detected = detect(capture.frame, detect_request(cycle, request), cycle.settings.detect,
+                                 cycle.memory.detect, capture.detections);
+  if (!detected.ok()) return failed(cycle, request, detected);
+  const std::int64_t found = now();
+  capture.picks =
+      choose_pick(capture.frame, capture.detections, capture.banks, cycle.settings.grasp, cycle.memory.grasp);
+  capture.answered = true;
+
+  Answer answer{begin_block(request), {}};
+  put_verdict(capture, answer.block);
+  if (capture.picks.found) put_pick(cycle, capture, answer.block);
+  set_time(answer.block, BlockStage::capture, taken - start);
+  for (std::size_t i = 0; i < stage_count; ++i) {
+    const auto stage = static_cast<BlockStage>(static_cast<std::size_t>(BlockStage::preprocess) + i);
+    set_time(answer.block, stage, capture.detections.stage_ns[i]);
+  }
+  set_time(answer.block, BlockStage::grasp, now() - found);
+  finish_times(cycle, request, answer.block);
+  return answer;
+}
+
+Answer answer_next(PickCycle& cycle, const PlcRequest& request) {
+  Capture& capture = cycle.capture;
+  Answer answer{begin_block(request), {}};
+  if (capture.answered) put_verdict(capture, answer.block);
+  if (capture.answered && capture.given < capture.picks.picks.size()) {
+    put_pick(cycle, capture, answer.block);
+  } else {
+    answer.block.code = ResultCode::nothing_left;
+    answer.block.reason = ResultReason::none;
+  }
+  finish_times(cycle, request, answer.block);
+  return answer;
+}
+
+}  // namespace
+
+Answer answer_request(PickCycle& cycle, const PlcRequest& request, PlcLink& plc) {
+  return request.kind == RequestKind::next ? answer_next(cycle, request) : answer_capture(cycle, request, plc);
+}
+
+}  // namespace graspd

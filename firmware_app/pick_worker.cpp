@@ -1,0 +1,44 @@
+#include "firmware_app/pick_worker.hpp"
+
+#include <chrono>
+
+#include "firmware_app/answer_text.hpp"
+
+namespace graspd {
+
+PickWorker::PickWorker(PickCycle& cycle, PlcLink& plc, PictureWriter* pictures)
+    : cycle_(cycle), plc_(plc), pictures_(pictures) {
+  thread_ = std::thread([this] { work(); });
+}
+
+PickWorker::~PickWorker() { stop(); }
+
+Status PickWorker::wait_ready() {
+  ready_.wait(false);
+  return readiness_;
+}
+
+void PickWorker::stop() {
+  stop_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+void PickWorker::work() {
+  readiness_ = warm_up(cycle_);
+  plc_.set_model_loaded(readiness_.ok());
+  plc_.set_camera_ok(readiness_.ok());
+  ready_ = true;
+  ready_.notify_all();
+  if (!readiness_.ok()) return;
+  while (!stop_) {
+    progress_.fetch_add(1, std::memory_order_relaxed);
+    PlcRequest request;
+    if (!plc_.wait_for_request(request, std::chrono::milliseconds(200))) continue;
+    const Answer answer = answer_request(cycle_, request, plc_);
+    plc_.commit(answer.block);
+    log_answer(answer, cycle_.source->frame_name());
+    if (pictures_ != nullptr) pictures_->offer(cycle_.capture, answer);
+  }
+}
+
+}  // namespace graspd

@@ -1,0 +1,81 @@
+#include "firmware_app/picture_writer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "drivers/system/log.hpp"
+#include "firmware_app/answer_text.hpp"
+#include "firmware_app/detection_report.hpp"
+
+namespace graspd {
+
+PictureWriter::PictureWriter(std::filesystem::path path, WorkingMemory& memory, const GraspParameters& grasp)
+    : path_(std::move(path)), memory_(memory), camera_from_robot_(inverse(grasp.robot_from_camera)) {
+  thread_ = std::thread([this] { work(); });
+}
+
+PictureWriter::~PictureWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void PictureWriter::offer(const Capture& capture, const Answer& answer) {
+  if (capture.frame.depth.empty()) return;
+  {
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock.owns_lock() || pending_) return;
+    camera_ = capture.frame.camera;
+    std::copy(capture.frame.depth.begin(), capture.frame.depth.end(), memory_.pictured_frame.begin());
+    instance_count_ = std::min(capture.detections.instances.size(), memory_.pictured_instances.size());
+    std::copy_n(capture.detections.instances.begin(), instance_count_, memory_.pictured_instances.begin());
+    banks_ = capture.banks;
+    pick_.reset();
+    if (answer.block.code == ResultCode::ok && capture.given > 0) pick_ = capture.picks.picks[capture.given - 1];
+    answer_ = answer;
+    pending_ = true;
+  }
+  wake_.notify_one();
+}
+
+void PictureWriter::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return pending_ || stop_; });
+    if (!pending_) return;
+    lock.unlock();
+    try {
+      draw();
+    } catch (const std::exception& problem) {
+      log_event(LogLevel::warning, "W013", "picture not drawn: %s", problem.what());
+    }
+    lock.lock();
+    pending_ = false;
+  }
+}
+
+void PictureWriter::draw() {
+  const DepthFrame frame{camera_, memory_.pictured_frame.first(camera_.pixel_count()), 0, 0};
+  const std::vector<DrawnInstance> instances =
+      drawn_instances(memory_.pictured_instances.first(instance_count_), banks_);
+  std::optional<DrawnPick> pick;
+  if (pick_) {
+    pick = DrawnPick{pick_->instance, camera_from_robot_ * pick_->robot_from_tool,
+                     camera_from_robot_ * pick_->robot_from_approach, pick_->opening};
+  }
+  std::array<char, 640> caption{};
+  explain_answer(answer_, caption);
+  const Status written = write_picture(path_, draw_detections(frame, instances, pick, caption.data()));
+  if (!written.ok()) {
+    log_event(LogLevel::warning, "W013", "picture not written: %.*s", static_cast<int>(written.message().size()),
+              written.message().data());
+  }
+}
+
+}  // namespace graspd

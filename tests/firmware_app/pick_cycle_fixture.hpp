@@ -1,0 +1,66 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "drivers/system/clock.hpp"
+#include "firmware_app/detection_session.hpp"
+#include "firmware_app/pick_cycle.hpp"
+#include "tests/firmware_app/scripted_plc.hpp"
+
+namespace graspd {
+
+/// The bank of the angle bar, made once for all tests of the program.
+inline const std::vector<std::byte>& shared_angle_bar_bank() {
+  static const std::vector<std::byte> bytes = angle_bar_bank();
+  return bytes;
+}
+
+/// A pick cycle over a scripted camera and PLC, on memory as the daemon would take it.
+class PickCycleFixture {
+ public:
+  explicit PickCycleFixture(RenderedScene scene, int threads = 1) : source(std::move(scene)) {
+    const Result<Bank> bank = read_bank(shared_angle_bar_bank(), "angle bar");
+    if (!bank.ok()) {
+      ADD_FAILURE() << bank.status().message();
+      return;
+    }
+    banks.push_back(bank.value());
+    WorkingCapacity capacity;
+    capacity.frame_pixels = source.scene.camera.pixel_count();
+    capacity.detect.threads = threads;
+    capacity.detect = fitted_capacity(capacity.detect, source.limits(), banks);
+    Arena measure = Arena::measuring();
+    static_cast<void>(carve_working_memory(measure, capacity));
+    block = MemoryBlock(measure.used());
+    Arena arena(block.bytes());
+    cycle.memory = carve_working_memory(arena, capacity);
+    EXPECT_FALSE(arena.exhausted());
+    cycle.settings.detect.threads = threads;
+    cycle.settings.maximum_age_ns = 1'000'000'000;
+    cycle.settings.now_ns = &monotonic_ns;
+    cycle.banks = banks;
+    cycle.source = &source;
+  }
+
+  Answer ask(RequestKind kind = RequestKind::capture, std::uint16_t part = 0) {
+    PlcRequest request;
+    request.kind = kind;
+    request.sequence = ++sequence;
+    request.request_id = static_cast<std::uint16_t>(100 + sequence);
+    request.part = part;
+    request.received_ns = monotonic_ns();
+    return answer_request(cycle, request, plc);
+  }
+
+  ScriptedSource source;
+  ScriptedPlc plc;
+  std::vector<Bank> banks;
+  MemoryBlock block;
+  PickCycle cycle;
+  std::uint16_t sequence = 0;
+};
+
+}  // namespace graspd

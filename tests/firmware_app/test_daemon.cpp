@@ -1,0 +1,86 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "drivers/files/atomic_file.hpp"
+#include "drivers/plc/modbus_client.hpp"
+#include "tests/firmware_app/graspd_process.hpp"
+#include "tests/firmware_app/pick_cycle_fixture.hpp"
+
+namespace graspd {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::chrono::seconds patience{60};
+
+/// `graspd run` on a recorded scene of two angle bars.
+class Daemon : public testing::Test {
+ protected:
+  void start(const std::string& more = "") {
+    ASSERT_TRUE(write_file(folder_.path("bar.bank"), shared_angle_bar_bank()).ok());
+    const std::filesystem::path scene = write_bop_scene(folder_.path("data"), angle_bar_scene());
+    const std::string configuration = folder_.write(
+        "graspd.toml", "banks = [\"bar.bank\"]\n[camera]\nsource = \"recorded\"\npath = \"" + scene.string() +
+                           "\"\n[modbus]\naddress = \"127.0.0.1\"\nport = 0\n[memory]\nlock = false\n" + more);
+    process_.emplace(folder_, std::vector<std::string>{"run", "--config", configuration});
+    const std::optional<std::string> port = process_->wait_for(" port=", patience);
+    ASSERT_TRUE(port) << process_->errors();
+    port_ = static_cast<std::uint16_t>(std::stoi(*port));
+  }
+
+  Result<ModbusClient> connect() const { return ModbusClient::connect("127.0.0.1", port_, BlockFormat{}); }
+
+  TemporaryFolder folder_;
+  std::optional<GraspdProcess> process_;
+  std::uint16_t port_ = 0;
+};
+
+TEST_F(Daemon, PicksOnATriggerAndStopsOnASignal) {
+  start();
+  Result<ModbusClient> client = connect();
+  ASSERT_TRUE(client.ok()) << client.status().message();
+  ClientRequest request;
+  request.request_id = 4711;
+  request.part = 7;
+  const Result<ResultBlock> block = client.value().request_pick(request, patience);
+  ASSERT_TRUE(block.ok()) << block.status().message() << process_->errors();
+  EXPECT_EQ(block.value().code, ResultCode::ok);
+  EXPECT_TRUE(block.value().verified);
+  EXPECT_EQ(block.value().request_id, 4711);
+  EXPECT_EQ(block.value().instances_found, 2);
+  float nearest = 1e9F;
+  for (const RigidTransform& pose : angle_bar_scene().poses) {
+    nearest = std::min(nearest, (pose.translation - block.value().part_pose.translation).norm());
+  }
+  EXPECT_LT(nearest, 0.001F);
+  EXPECT_TRUE(process_->wait_for("code=I010 pick 1 of part 7", patience)) << process_->errors();
+
+  request.part = 8;
+  const Result<ResultBlock> unknown = client.value().request_pick(request, patience);
+  ASSERT_TRUE(unknown.ok()) << unknown.status().message();
+  EXPECT_EQ(unknown.value().code, ResultCode::bad_request);
+  EXPECT_TRUE(process_->wait_for("code=E012 no pick: no bank of part number 8 is loaded", patience));
+
+  process_->terminate();
+  EXPECT_EQ(process_->wait(), 0);
+  EXPECT_THAT(process_->errors(), HasSubstr("code=N002 stopped"));
+}
+
+TEST_F(Daemon, LeavesAPictureOfTheLatestAnswer) {
+  start("[output]\npicture = \"latest.png\"\n");
+  Result<ModbusClient> client = connect();
+  ASSERT_TRUE(client.ok()) << client.status().message();
+  ASSERT_TRUE(client.value().request_pick({}, patience).ok());
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!std::filesystem::exists(folder_.path("latest.png")) && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_GT(std::filesystem::file_size(folder_.path("latest.png")), 1000U);
+  process_->terminate();
+  EXPECT_EQ(process_->wait(), 0) << process_->errors();
+}
+
+}  // namespace
+}  // namespace graspd
