@@ -2,21 +2,32 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "tests/house/include_rules.hpp"
 
 namespace graspd::testing {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
+using ::testing::StartsWith;
 
 TEST(IncludeRules, HouseKeepsThem) {
   const SourceFiles house = read_house(GRASPD_SOURCE_DIR);
   ASSERT_GT(house.size(), 20U);
   EXPECT_THAT(broken_include_rules(house), IsEmpty());
+}
+
+TEST(IncludeRules, NothingOnTheLineNeedsTraining) {
+  const SourceFiles house = read_house(GRASPD_SOURCE_DIR);
+  const std::vector<std::string> line = files_needed_by(house, "firmware_app/run_command.cpp");
+  ASSERT_THAT(line, Contains("core/detect/detector.cpp")) << "the subcommand run reaches the detector";
+  EXPECT_THAT(line, Not(Contains(StartsWith("core/train/"))));
 }
 
 TEST(IncludeRules, CoreLooksDownOnly) {
