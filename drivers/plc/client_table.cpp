@@ -22,6 +22,8 @@ Frame next_frame(std::span<const std::uint8_t> bytes) {
   if (length < smallest_length || length > largest_length) return {FrameState::not_modbus};
   const std::size_t size = length_ends + length;
   if (bytes.size() < std::max(size, header_size + 1)) return {};
+  // Functions from 128 on mark exceptions; libmodbus would answer them with what looks like a success.
+  if ((bytes[header_size] & 0x80U) != 0) return {FrameState::not_modbus};
   return {FrameState::complete, size};
 }
 

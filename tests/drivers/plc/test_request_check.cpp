@@ -134,6 +134,13 @@ TEST(Frame, IsRefusedWhenTheHeaderIsNotModbus) {
   EXPECT_EQ(next_frame(Bytes{0, 1, 0, 0, 1, 0}).state, FrameState::not_modbus);
 }
 
+TEST(Frame, IsRefusedWhenItIsItselfAnException) {
+  Bytes request{0, 1, 0, 0, 0, 3, 255, 0x03, 2};
+  EXPECT_EQ(next_frame(request).state, FrameState::complete);
+  request[7] = 0x83;
+  EXPECT_EQ(next_frame(request).state, FrameState::not_modbus);
+}
+
 [[nodiscard]] bool allows(const std::vector<std::string>& networks, const std::string& client) {
   const Result<ClientFilter> filter = ClientFilter::make(networks);
   const Result<SocketAddress> address = parse_address(client, 1);

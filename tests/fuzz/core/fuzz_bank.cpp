@@ -5,6 +5,7 @@
 
 #include "core/bank/bank.hpp"
 #include "core/bank/bank_format.hpp"
+#include "core/detect/detector.hpp"
 #include "core/geometry/depth_render.hpp"
 #include "core/grasp/planner.hpp"
 #include "tests/fuzz/fuzz_target.hpp"
@@ -31,6 +32,21 @@ void repair_header(std::vector<std::byte>& file) {
   std::memcpy(file.data() + offsetof(BankHeader, checksum), &checksum, sizeof(checksum));
 }
 
+DetectCapacity small_capacity() {
+  DetectCapacity capacity;
+  capacity.maximum_width = 48;
+  capacity.maximum_height = 36;
+  capacity.map_cells = 48 * 36;
+  capacity.scene_points = 500;
+  capacity.hypotheses = 600;
+  capacity.clusters = 100;
+  capacity.judged = 20;
+  capacity.instances = 5;
+  capacity.maximum_references = 64;
+  capacity.maximum_cells = 4096;
+  return capacity;
+}
+
 /// Does with the bank what the pipeline does, where a wrong index or number would show.
 void use(const Bank& bank) {
   std::uint64_t sum = 0;
@@ -45,16 +61,27 @@ void use(const Bank& bank) {
   if (sum == 1 && bank.part->name_view().size() > 64) std::abort();
 
   static std::vector<float> depth(48UL * 36UL);
-  static std::vector<std::byte> memory(1U << 20U);
+  static std::vector<std::byte> memory(1U << 24U);
   const DepthFrame frame{{48, 36, 60.0F, 60.0F, 23.5F, 17.5F}, depth, 0, 0};
   Instance instance;
-  instance.camera_from_part.translation = Vector3(0.0F, 0.0F, 0.3F);
-  render_depth(bank.mesh, instance.camera_from_part, frame.camera, depth);
-  Detections detections;
-  detections.instances = {&instance, 1};
+  instance.camera_from_part.translation = Vector3(0.0F, 0.0F, 0.1F);
+  std::fill(depth.begin(), depth.end(), 0.12F);
+  draw_depth(bank.mesh, instance.camera_from_part, frame.camera, depth);
+
   Arena arena(memory);
-  GraspWorkspace workspace = carve_grasp_workspace(arena, {});
-  const PickResult result = choose_pick(frame, detections, {&bank, 1}, {}, workspace);
+  DetectWorkspace detect_workspace = carve_detect_workspace(arena, small_capacity());
+  GraspWorkspace grasp_workspace = carve_grasp_workspace(arena, {});
+  if (arena.exhausted()) std::abort();
+  DetectRequest request;
+  request.banks = {&bank, 1};
+  request.minimum_score = 0.0F;
+  Detections detections;
+  if (!detect(frame, request, {}, detect_workspace, detections).ok()) return;
+  for (const Instance& found : detections.instances) {
+    if (!found.camera_from_part.translation.allFinite() || !(found.score >= 0.0F)) std::abort();
+  }
+  if (detections.instances.empty()) detections.instances = {&instance, 1};
+  const PickResult result = choose_pick(frame, detections, request.banks, {}, grasp_workspace);
   if (result.found && !result.best.robot_from_tool.translation.allFinite()) std::abort();
 }
 
