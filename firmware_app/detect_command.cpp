@@ -99,7 +99,8 @@ void add_detect_command(CLI::App& command_line, Status& outcome) {
   command->add_option("--units", options->units, "Units of a cloud")
       ->capture_default_str()
       ->check(CLI::IsMember({"m", "mm"}));
-  command->add_option("--axes", options->axes, "Axes of a cloud: y down and z away (opencv), or y up and z near (opengl)")
+  command
+      ->add_option("--axes", options->axes, "Axes of a cloud: y down and z away (opencv), or y up and z near (opengl)")
       ->capture_default_str()
       ->check(CLI::IsMember({"opencv", "opengl"}));
   command->add_option("--camera", options->camera, "Intrinsics of a depth image, as camera.json");
