@@ -5,7 +5,7 @@ file(REMOVE_RECURSE ${staging})
 set(ENV{DESTDIR} ${staging})
 
 function(install_it)
-  execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} RESULT_VARIABLE failed OUTPUT_QUIET)
+  execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix /usr RESULT_VARIABLE failed OUTPUT_QUIET)
   if(failed)
     message(FATAL_ERROR "cmake --install failed")
   endif()
