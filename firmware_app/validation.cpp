@@ -101,7 +101,7 @@ Status validate_image(const ValidationOptions& options, const DataSet& data, Eva
         static_cast<double>(detections.stage_ns[i]) * 1e-9 / static_cast<double>(data.images.size());
   }
   ++validation.images;
-  if (!image.truths.empty()) validation.errors.push_back(image_errors(image, frame, data.parts));
+  if (image.annotated) validation.errors.push_back(image_errors(image, frame, data.parts));
   if (options.picture_folder.empty()) return {};
   return draw(options, image, frame, detections, banks);
 }

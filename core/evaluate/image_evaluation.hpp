@@ -51,8 +51,9 @@ struct EvaluationTarget {
 struct EvaluationImage {
   std::uint32_t scene = 0;
   std::uint32_t image = 0;
-  std::string level;   ///< Difficulty as the data set names it; empty when it does not.
-  double seconds = 0;  ///< Of the detection.
+  std::string level;       ///< Difficulty as the data set names it; empty when it does not.
+  double seconds = 0;      ///< Of the detection.
+  bool annotated = false;  ///< The true poses are known; false: `truths` is empty and says nothing.
   std::vector<EvaluationTarget> targets;
   std::vector<PoseEstimate> estimates;
   std::vector<TruePose> truths;

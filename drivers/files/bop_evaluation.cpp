@@ -19,6 +19,7 @@ bool is_there(const fs::path& path) {
 
 /// What a scene knows of its images beside their depth.
 struct SceneNotes {
+  bool annotated = false;
   std::vector<BopInstance> instances;
   std::map<std::string, std::string> levels;  // By im_id.
 };
@@ -36,7 +37,8 @@ std::map<std::string, std::string> read_levels(const fs::path& path) {
 
 Result<SceneNotes> read_notes(const fs::path& folder) {
   SceneNotes notes;
-  if (is_there(folder / "scene_gt.json")) {
+  notes.annotated = is_there(folder / "scene_gt.json");
+  if (notes.annotated) {
     Result<std::vector<BopInstance>> instances = read_bop_ground_truth(folder);
     if (!instances.ok()) return instances.status();
     notes.instances = std::move(instances).value();
@@ -49,6 +51,7 @@ EvaluationImage image_from(const BopTarget& target, const SceneNotes& notes) {
   EvaluationImage image;
   image.scene = static_cast<std::uint32_t>(target.scene_id);
   image.image = static_cast<std::uint32_t>(target.im_id);
+  image.annotated = notes.annotated;
   const auto level = notes.levels.find(std::to_string(target.im_id));
   if (level != notes.levels.end()) image.level = level->second;
   for (const BopInstance& truth : notes.instances) {

@@ -14,7 +14,7 @@ namespace graspd {
 [[nodiscard]] Result<std::vector<EvaluationPart>> read_evaluation_parts(const std::filesystem::path& root);
 
 /// What is asked and true in each image of `root`/`split`_targets_bop19.json, by scene and image, with
-/// no estimates yet; `truths` is empty where a scene has no scene_gt.json. The level comes from
+/// no estimates yet; a scene without scene_gt.json is not annotated. The level comes from
 /// scene_meta.json where there is one. Fails with bad_file.
 [[nodiscard]] Result<std::vector<EvaluationImage>> read_evaluation_images(const std::filesystem::path& root,
                                                                           const std::string& split);

@@ -67,11 +67,13 @@ TEST_F(BopEvaluation, GathersTargetsAndTruthsOfAnImage) {
   ASSERT_EQ(images.value().size(), 2U);
   const EvaluationImage& blind = images.value()[0];
   EXPECT_EQ(blind.scene, 1U);
+  EXPECT_FALSE(blind.annotated);
   EXPECT_TRUE(blind.truths.empty());
   EXPECT_EQ(blind.level, "");
   ASSERT_EQ(blind.targets.size(), 1U);
   EXPECT_EQ(blind.targets[0].instances, 3U);
   const EvaluationImage& annotated = images.value()[1];
+  EXPECT_TRUE(annotated.annotated);
   EXPECT_EQ(annotated.image, 5U);
   EXPECT_EQ(annotated.level, "hard");
   EXPECT_EQ(annotated.targets.size(), 2U);
