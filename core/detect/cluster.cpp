@@ -138,13 +138,12 @@ void sort_by_score(FixedVector<PoseCluster>& clusters) {
   });
 }
 
-void keep_plausible(const SceneMap& map, const Bank& bank, int count, int threads, FixedVector<PoseCluster>& clusters) {
+void rate_plausibility(const SceneMap& map, const Bank& bank, int threads, FixedVector<PoseCluster>& clusters) {
   constexpr int points = 100;
   parallel_for(clusters.size(), threads, 16, [&](std::size_t k) {
     clusters[k].score = scene_consistency(map, bank, clusters[k].camera_from_part, points, bank.part->sampling).score();
   });
   sort_by_score(clusters);
-  clusters.truncate(static_cast<std::size_t>(std::max(count, 0)));
 }
 
 }  // namespace graspd

@@ -47,7 +47,7 @@ void cluster_hypotheses(std::span<const Hypothesis> hypotheses, const Bank& bank
 /// Best first; equal ones in the order of their rank.
 void sort_by_score(FixedVector<PoseCluster>& clusters);
 
-/// Rates the clusters by their agreement with the scene and keeps the `count` best, best first.
-void keep_plausible(const SceneMap& map, const Bank& bank, int count, int threads, FixedVector<PoseCluster>& clusters);
+/// Rates the clusters by their agreement with the scene and puts the best first.
+void rate_plausibility(const SceneMap& map, const Bank& bank, int threads, FixedVector<PoseCluster>& clusters);
 
 }  // namespace graspd

@@ -102,6 +102,7 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
   workspace.judged.clear();
   workspace.accepted.clear();
   workspace.rejected.clear();
+  if (request.trace != nullptr) request.trace->poses.clear();
   if (Status status = check(frame, request, parameters, workspace.capacity); !status.ok()) return status;
   if (request.banks.empty()) return {};
   StageClock clock(request, detections);
@@ -130,14 +131,21 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     clock.end_of(Stage::preprocess);
 
     match(points, bank, parameters.match, parameters.threads, workspace.match, workspace.hypotheses);
+    record(request.trace, b, TracedStage::voted, workspace.hypotheses);
     clock.end_of(Stage::match);
 
     cluster_hypotheses(workspace.hypotheses.span(), bank, parameters.cluster, workspace.cluster, workspace.clusters);
     if (workspace.clusters.dropped() > 0) detections.flags |= flag_hypotheses_cut;
-    keep_plausible(scene.map, bank, parameters.cluster.plausible, parameters.threads, workspace.clusters);
+    rate_plausibility(scene.map, bank, parameters.threads, workspace.clusters);
+    record(request.trace, b, TracedStage::clustered, workspace.clusters);
+    workspace.clusters.truncate(static_cast<std::size_t>(std::max(parameters.cluster.plausible, 0)));
+    record(request.trace, b, TracedStage::plausible, workspace.clusters);
     clock.end_of(Stage::cluster);
 
     refine_coarsely(scene.map, scene.edges, bank, parameters.refine, parameters.threads, workspace.clusters);
+    record(request.trace, b, TracedStage::aligned, workspace.clusters);
+    keep_distinct(bank, parameters.refine, workspace.clusters);
+    record(request.trace, b, TracedStage::distinct, workspace.clusters);
     clock.end_of(Stage::refine);
 
     judge_clusters(scene, request, b, parameters, workspace, detections);

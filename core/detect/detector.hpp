@@ -6,6 +6,7 @@
 #include "core/bank/bank.hpp"
 #include "core/detect/detections.hpp"
 #include "core/detect/parameters.hpp"
+#include "core/detect/trace.hpp"
 #include "core/detect/workspace.hpp"
 #include "core/geometry/depth_frame.hpp"
 
@@ -18,6 +19,7 @@ struct DetectRequest {
   float minimum_score = -1.0F;         ///< Overrides every bank's threshold when not negative.
   std::int64_t (*now_ns)() = nullptr;  ///< Monotonic clock for the stage times and the deadline; null: neither.
   std::int64_t deadline_ns = 0;        ///< In the clock's time; 0: none.
+  DetectTrace* trace = nullptr;        ///< Filled for offline tools; null on the line.
 };
 
 /// Finds every instance of the parts of `request` in `frame` (paper 2.4). The result lies in

@@ -126,9 +126,11 @@ void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& b
         scene_consistency(map, bank, cluster.camera_from_part, 2 * parameters.coarse_points, 0.6F * voxel).score();
   });
   sort_by_score(clusters);
+}
 
+void keep_distinct(const Bank& bank, const RefineParameters& parameters, FixedVector<PoseCluster>& clusters) {
   const Symmetry symmetry = bank.symmetry();
-  const float reach = parameters.same_translation * voxel;
+  const float reach = parameters.same_translation * bank.part->sampling;
   std::size_t kept = 0;
   for (std::size_t k = 0; k < clusters.size() && kept < static_cast<std::size_t>(parameters.judged); ++k) {
     const Vector3 centre = clusters[k].camera_from_part * bank.part->centre;

@@ -24,10 +24,12 @@ struct IcpSchedule {
 [[nodiscard]] RigidTransform refine_pose(const SceneMap& map, const DepthEdges& edges, const Bank& bank,
                                          const RigidTransform& camera_from_part, const IcpSchedule& schedule);
 
-/// Refines all clusters coarsely, rates them by their agreement with the scene, makes one of those that
-/// have met, and keeps the best, best first.
+/// Refines all clusters coarsely, rates them by their agreement with the scene and puts the best first.
 void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
                      int threads, FixedVector<PoseCluster>& clusters);
+
+/// Makes one of the clusters that have met, and keeps the best, best first.
+void keep_distinct(const Bank& bank, const RefineParameters& parameters, FixedVector<PoseCluster>& clusters);
 
 /// The last iterations for a pose that was refined coarsely.
 [[nodiscard]] RigidTransform refine_finely(const SceneMap& map, const DepthEdges& edges, const Bank& bank,

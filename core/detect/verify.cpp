@@ -218,13 +218,20 @@ float score_of(const Evidence& evidence) {
   return evidence.confirmed > 0.0F ? 1.0F / (1.0F + std::exp(-sum)) : 0.0F;
 }
 
+std::array<TestOutcome, evidence_test_count> test_outcomes(const Evidence& evidence, const VerifyParameters& parameters,
+                                                           const VerifyThresholds& thresholds) {
+  return {{{Rejection::weak, evidence.measured, parameters.minimum_measured, true},
+           {Rejection::overlap, evidence.overlap, thresholds.minimum_overlap, true},
+           {Rejection::boundary, evidence.boundary, thresholds.maximum_boundary, false},
+           {Rejection::edge, evidence.edge, thresholds.minimum_edge * outline_weight(evidence.relief), true},
+           {Rejection::below_plane, evidence.below, thresholds.maximum_below, false}}};
+}
+
 Rejection failed_test(const Evidence& evidence, const VerifyParameters& parameters,
                       const VerifyThresholds& thresholds) {
-  if (evidence.measured < parameters.minimum_measured) return Rejection::weak;
-  if (evidence.overlap < thresholds.minimum_overlap) return Rejection::overlap;
-  if (evidence.boundary > thresholds.maximum_boundary) return Rejection::boundary;
-  if (evidence.edge < thresholds.minimum_edge * outline_weight(evidence.relief)) return Rejection::edge;
-  if (evidence.below > thresholds.maximum_below) return Rejection::below_plane;
+  for (const TestOutcome& outcome : test_outcomes(evidence, parameters, thresholds)) {
+    if (outcome.failed()) return outcome.test;
+  }
   return Rejection::none;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "core/bank/bank.hpp"
@@ -33,7 +34,23 @@ struct RenderedModel {
 /// The confidence in a pose from its evidence, in [0, 1].
 [[nodiscard]] float score_of(const Evidence& evidence);
 
-/// The first of the four tests of paper 2.4.2 that the evidence fails, or none.
+/// A figure held against its threshold.
+struct TestOutcome {
+  Rejection test = Rejection::none;
+  float figure = 0;
+  float threshold = 0;
+  bool at_least = true;  ///< The figure must reach the threshold; false: it must not exceed it.
+
+  [[nodiscard]] bool failed() const { return at_least ? figure < threshold : figure > threshold; }
+};
+inline constexpr std::size_t evidence_test_count = 5;
+
+/// All tests of paper 2.4.2 that the evidence of one pose decides, in the order in which they count.
+[[nodiscard]] std::array<TestOutcome, evidence_test_count> test_outcomes(const Evidence& evidence,
+                                                                         const VerifyParameters& parameters,
+                                                                         const VerifyThresholds& thresholds);
+
+/// The first of them that the evidence fails, or none.
 [[nodiscard]] Rejection failed_test(const Evidence& evidence, const VerifyParameters& parameters,
                                     const VerifyThresholds& thresholds);
 
