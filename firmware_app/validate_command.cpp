@@ -77,6 +77,8 @@ Status run_validation(const ValidateOptions& options) {
     std::printf("No ground truth (scene_gt.json): nothing to compare with.\n");
   } else {
     print_summary(validation.value());
+    if (options.validation.explain)
+      std::fputs(explanation_as_text(validation.value().explanation, validation.value().part_names).c_str(), stdout);
   }
   return {};
 }
@@ -97,6 +99,8 @@ void add_validate_command(CLI::App& command_line, Status& outcome) {
       ->check(CLI::Range(1, 256));
   command->add_flag("--no-background", options->validation.without_empty_bin,
                     "Do without the scenes' frames of the empty bin");
+  command->add_flag("--explain", options->validation.explain,
+                    "Tell for each missed target where its right pose was lost, and what each test did");
   command->add_option("--picture-dir", options->validation.picture_folder,
                       "Write each frame with the instances found into this folder");
   command->footer(

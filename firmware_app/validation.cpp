@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "drivers/files/bop_evaluation.hpp"
@@ -70,7 +71,7 @@ Status draw(const ValidationOptions& options, const EvaluationImage& image, cons
 
 /// Detects in one image and adds what was found to `validation`.
 Status validate_image(const ValidationOptions& options, const DataSet& data, EvaluationImage image,
-                      const BopScene& scene, DetectionSession& session, Validation& validation) {
+                      const BopScene& scene, DetectionSession& session, TraceBuffer* trace, Validation& validation) {
   Result<LoadedFrame> file = load_bop_frame(scene, static_cast<int>(image.image));
   if (!file.ok()) return file.status();
   const DepthFrame frame = file.value().frame();
@@ -86,6 +87,7 @@ Status validate_image(const ValidationOptions& options, const DataSet& data, Eva
   parameters.threads = options.threads;
   Detections detections;
   session.fit({frame.camera.width, frame.camera.height}, data.banks.banks, options.threads);
+  if (trace != nullptr) request.trace = &trace->trace();
   const std::int64_t start = monotonic_ns();
   if (Status detected = session.run(frame, request, parameters, detections); !detected.ok()) return detected;
   image.seconds = static_cast<double>(monotonic_ns() - start) * 1e-9;
@@ -101,7 +103,13 @@ Status validate_image(const ValidationOptions& options, const DataSet& data, Eva
         static_cast<double>(detections.stage_ns[i]) * 1e-9 / static_cast<double>(data.images.size());
   }
   ++validation.images;
-  if (image.annotated) validation.errors.push_back(image_errors(image, frame, data.parts));
+  if (image.annotated) {
+    validation.errors.push_back(image_errors(image, frame, data.parts));
+    if (trace != nullptr) {
+      explain_image(image, validation.errors.back(), data.parts, banks, trace->trace(), detections, parameters.verify,
+                    validation.explanation);
+    }
+  }
   if (options.picture_folder.empty()) return {};
   return draw(options, image, frame, detections, banks);
 }
@@ -118,6 +126,8 @@ Result<Validation> validate(const ValidationOptions& options,
     validation.part_names.emplace_back(part, data.banks.banks[index].part->name_view());
   }
   DetectionSession session;
+  std::optional<TraceBuffer> trace;
+  if (options.explain) trace.emplace(DetectCapacity{}, data.banks.banks.size());
   BopScene scene;
   for (const EvaluationImage& image : data.images) {
     progress(static_cast<float>(validation.images) / static_cast<float>(data.images.size()),
@@ -128,7 +138,7 @@ Result<Validation> validate(const ValidationOptions& options,
       if (!read.ok()) return read.status();
       scene = std::move(read).value();
     }
-    Status status = validate_image(options, data, image, scene, session, validation);
+    Status status = validate_image(options, data, image, scene, session, trace ? &*trace : nullptr, validation);
     if (!status.ok()) return status;
   }
   return validation;

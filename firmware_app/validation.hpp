@@ -10,6 +10,7 @@
 #include "core/evaluate/summary.hpp"
 #include "core/status.hpp"
 #include "drivers/files/bop_dataset.hpp"
+#include "firmware_app/explanation.hpp"
 
 namespace graspd {
 
@@ -21,6 +22,7 @@ struct ValidationOptions {
   std::string picture_folder;  ///< Where annotated pictures go; empty: nowhere.
   int threads = 1;
   bool without_empty_bin = false;  ///< Do not use the scenes' empty frames.
+  bool explain = false;            ///< Find out where right poses were lost.
 };
 
 /// What was found in all images of the targets file.
@@ -30,6 +32,7 @@ struct Validation {
   std::vector<std::pair<std::uint32_t, std::string>> part_names;
   std::array<double, stage_count> stage_seconds{};  ///< Mean over the images.
   std::size_t images = 0;
+  Explanation explanation;  ///< Empty unless asked for.
 };
 
 /// Detects, in each image of `split`_targets_bop19.json, the parts that are listed for it (their counts

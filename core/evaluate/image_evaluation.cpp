@@ -97,8 +97,9 @@ PartErrors part_errors(const EvaluationImage& image, const EvaluationPart& part,
 }  // namespace
 
 EvaluationPart evaluation_part(std::uint32_t id, Mesh mesh, float diameter, const Symmetry& symmetry) {
-  EvaluationPart part{id, diameter, std::move(mesh), {}, symmetry_set(symmetry)};
+  EvaluationPart part{id, diameter, std::move(mesh), {}, symmetry_set(symmetry), Vector3::Zero()};
   part.vertices = outermost_first(part.mesh.vertices);
+  for (const Vector3& vertex : part.vertices) part.middle += vertex / static_cast<float>(part.vertices.size());
   return part;
 }
 

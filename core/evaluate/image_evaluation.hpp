@@ -22,6 +22,7 @@ struct EvaluationPart {
   Mesh mesh;
   std::vector<Vector3> vertices;           ///< The mesh's, the outermost first.
   std::vector<RigidTransform> symmetries;  ///< See symmetry_set.
+  Vector3 middle = Vector3::Zero();        ///< Mean of the vertices.
 };
 
 /// `mesh` is the one errors are defined on: BOP's models_eval where a data set has it.
