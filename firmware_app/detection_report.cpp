@@ -32,6 +32,11 @@ std::string part_name(const DetectionReport& report, const Instance& instance) {
   return std::string(report.banks[instance.bank].part->name_view());
 }
 
+/// Evidence counts lengths in voxels of the bank.
+double residual_mm(const DetectionReport& report, const Instance& instance) {
+  return wide(instance.evidence.residual) * wide(report.banks[instance.bank].part->sampling) * 1e3;
+}
+
 void append_poses(std::string& text, const DetectionReport& report) {
   append(text, "%3s  %-20s %6s  %26s  %s\n", "#", "part", "score", "position mm (x, y, z)",
          "rotation, row by row (camera from part)");
@@ -57,7 +62,7 @@ void append_evidence(std::string& text, const DetectionReport& report, std::span
     append(text, "%3zu  %-20.40s %6.3f  %5u %7.2f %7.2f %6.2f %8.2f %5.2f %5.2f %5.2f mm %7.0f", ++number,
            part_name(report, instance).c_str(), wide(instance.score), instance.view, wide(evidence.overlap),
            wide(evidence.visible), wide(evidence.purity), wide(evidence.boundary), wide(evidence.edge),
-           wide(evidence.below), wide(evidence.residual) * 1e3, wide(instance.votes));
+           wide(evidence.below), residual_mm(report, instance), wide(instance.votes));
     if (rejected) {
       const Vector3& t = instance.camera_from_part.translation;
       append(text, "  %8.2f %8.2f %8.2f  %s", wide(t.x()) * 1e3, wide(t.y()) * 1e3, wide(t.z()) * 1e3,
@@ -101,7 +106,7 @@ Json instance_as_json(const DetectionReport& report, const Instance& instance) {
             {"boundary", evidence.boundary},
             {"edge", evidence.edge},
             {"below", evidence.below},
-            {"residual_mm", wide(evidence.residual) * 1e3},
+            {"residual_mm", residual_mm(report, instance)},
             {"confirmed_cells", evidence.confirmed}}}};
 }
 

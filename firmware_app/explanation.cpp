@@ -29,16 +29,18 @@ PartChain chain_of(std::uint32_t index, const Bank& bank, const DetectTrace& tra
 }
 
 void explain_bank(const EvaluationImage& image, const PartErrors& errors, const EvaluationPart& part,
-                  std::uint32_t index, const Bank& bank, const DetectTrace& trace, const Detections& detections,
+                  std::uint32_t index, const DetectRequest& request, const Detections& detections,
                   const VerifyParameters& parameters, Explanation& explanation) {
+  const Bank& bank = request.banks[index];
   std::vector<Instance> judged;
-  const PartChain chain = chain_of(index, bank, trace, detections, judged);
+  const PartChain chain = chain_of(index, bank, *request.trace, detections, judged);
   const PartExplanation explained = explain(image, errors, part, chain);
   const VerifyThresholds& thresholds = bank.part->thresholds;
+  const float minimum_score = request.minimum_score >= 0.0F ? request.minimum_score : thresholds.minimum_score;
   for (const TargetFate& fate : explained.targets) {
     explanation.targets.push_back(fate);
     if (fate.fate == Fate::found) continue;
-    MissedTarget missed{fate, {}, {}, thresholds.minimum_score};
+    MissedTarget missed{fate, {}, {}, minimum_score};
     if (fate.fate == Fate::rejected) {
       missed.judged = judged[fate.judged];
       missed.tests = test_outcomes(missed.judged.evidence, parameters, thresholds);
@@ -63,16 +65,16 @@ TraceBuffer::TraceBuffer(const DetectCapacity& capacity, std::size_t banks)
       trace_{FixedVector(std::span(storage_))} {}
 
 void explain_image(const EvaluationImage& image, const ImageErrors& errors, std::span<const EvaluationPart> parts,
-                   std::span<const Bank> banks, const DetectTrace& trace, const Detections& detections,
-                   const VerifyParameters& parameters, Explanation& explanation) {
-  explanation.dropped += trace.poses.dropped();
-  for (std::uint32_t index = 0; index < banks.size(); ++index) {
-    const std::uint32_t id = banks[index].part->part_id;
+                   const DetectRequest& request, const Detections& detections, const VerifyParameters& parameters,
+                   Explanation& explanation) {
+  explanation.dropped += request.trace->poses.dropped();
+  for (std::uint32_t index = 0; index < request.banks.size(); ++index) {
+    const std::uint32_t id = request.banks[index].part->part_id;
     const auto part = std::find_if(parts.begin(), parts.end(), [&](const EvaluationPart& p) { return p.id == id; });
     const auto part_errors =
         std::find_if(errors.parts.begin(), errors.parts.end(), [&](const PartErrors& e) { return e.part == id; });
     if (part == parts.end() || part_errors == errors.parts.end()) continue;
-    explain_bank(image, *part_errors, *part, index, banks[index], trace, detections, parameters, explanation);
+    explain_bank(image, *part_errors, *part, index, request, detections, parameters, explanation);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/bank/bank.hpp"
 #include "core/detect/detections.hpp"
+#include "core/detect/detector.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/detect/trace.hpp"
 #include "core/detect/verify.hpp"
@@ -61,11 +62,11 @@ struct Explanation {
   std::size_t dropped = 0;  ///< Poses for which the trace had no room.
 };
 
-/// Explains one image: `banks` are those of the detection, `image` holds what was reported and is true,
-/// `errors` belongs to it.
+/// Explains one image: `request`, which must have a trace, was answered by `detections`; `image` holds what was
+/// reported and is true, `errors` belongs to it.
 void explain_image(const EvaluationImage& image, const ImageErrors& errors, std::span<const EvaluationPart> parts,
-                   std::span<const Bank> banks, const DetectTrace& trace, const Detections& detections,
-                   const VerifyParameters& parameters, Explanation& explanation);
+                   const DetectRequest& request, const Detections& detections, const VerifyParameters& parameters,
+                   Explanation& explanation);
 
 /// Tables for a person; `part_names` by part number.
 [[nodiscard]] std::string explanation_as_text(const Explanation& explanation,

@@ -4,9 +4,11 @@
 #include <memory>
 #include <string>
 
+#include "core/evaluate/reliability.hpp"
 #include "drivers/files/atomic_file.hpp"
 #include "firmware_app/commands.hpp"
 #include "firmware_app/progress_bar.hpp"
+#include "firmware_app/reliability_plot.hpp"
 #include "firmware_app/validation.hpp"
 
 namespace graspd {
@@ -15,6 +17,7 @@ namespace {
 struct ValidateOptions {
   ValidationOptions validation;
   std::string output;
+  std::string reliability;
 };
 
 void print_heading() {
@@ -29,6 +32,17 @@ void print_row(const std::string& label, const EvaluationRow& row) {
               row.found_by_visibility[0].value(), row.found_by_visibility[1].value(),
               row.found_by_visibility[2].value(), row.precision.value(), row.precision.hits, row.precision.total,
               row.targets);
+}
+
+void print_reliability(const Reliability& found) {
+  std::printf("share right by score:");
+  for (std::size_t i = 0; i < score_bin_count; ++i) {
+    const ScoreBin& bin = found.bins[i];
+    if (bin.total == 0) continue;
+    std::printf(" %.1f-%.1f %zu/%zu", 0.1 * static_cast<double>(i), 0.1 * static_cast<double>(i + 1), bin.right,
+                bin.total);
+  }
+  std::printf("; mean distance to the score %.3f\n", found.calibration_error());
 }
 
 void print_summary(const Validation& validation) {
@@ -48,6 +62,7 @@ void print_summary(const Validation& validation) {
   for (const LabelledRow& level : summary.by_level) print_row("level " + level.label, level.row);
   std::printf("\nbest scored instance right in %zu of %zu images with a part more than half visible\n",
               summary.first_right.hits, summary.first_right.total);
+  print_reliability(reliability(validation.errors));
   std::printf("seconds a frame: median %.3f, mean %.3f (", summary.median_seconds, summary.mean_seconds);
   for (std::size_t i = 0; i < stage_count; ++i) {
     std::printf("%s%s %.3f", i == 0 ? "" : ", ", stage_name(static_cast<Stage>(i)), validation.stage_seconds[i]);
@@ -56,7 +71,10 @@ void print_summary(const Validation& validation) {
 }
 
 Status run_validation(const ValidateOptions& options) {
-  if (Status writable = check_writable(options.output); !writable.ok()) return writable;
+  for (const std::string& file : {options.output, options.reliability}) {
+    if (file.empty()) continue;
+    if (Status writable = check_writable(file); !writable.ok()) return writable;
+  }
   if (!options.validation.picture_folder.empty()) {
     std::error_code error;
     std::filesystem::create_directories(options.validation.picture_folder, error);
@@ -77,6 +95,10 @@ Status run_validation(const ValidateOptions& options) {
     std::printf("No ground truth (scene_gt.json): nothing to compare with.\n");
   } else {
     print_summary(validation.value());
+    if (!options.reliability.empty()) {
+      const Picture plot = draw_reliability(reliability(validation.value().errors));
+      if (Status written = write_picture(options.reliability, plot); !written.ok()) return written;
+    }
     if (options.validation.explain)
       std::fputs(explanation_as_text(validation.value().explanation, validation.value().part_names).c_str(), stdout);
   }
@@ -101,17 +123,27 @@ void add_validate_command(CLI::App& command_line, Status& outcome) {
                     "Do without the scenes' frames of the empty bin");
   command->add_flag("--explain", options->validation.explain,
                     "Tell for each missed target where its right pose was lost, and what each test did");
+  command->add_option("--reliability", options->reliability,
+                      "Write a plot of the share that is right over the score into this PNG");
+  command
+      ->add_option("--minimum-score", options->validation.minimum_score,
+                   "Report from this score on (else the banks' own)")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_flag("--no-tests", options->validation.without_tests,
+                    "Let the score alone decide, without the tests of verification");
   command->add_option("--picture-dir", options->validation.picture_folder,
                       "Write each frame with the instances found into this folder");
   command->footer(
       "For each image of the targets file, detects the objects listed for it (their counts are not\n"
       "used), writes every instance reported at the default threshold, then prints average recall,\n"
-      "recall by visibility, the share of reported instances that are right, and seconds a frame.\n"
+      "recall by visibility, the share of reported instances that are right, by score too, and seconds\n"
+      "a frame.\n"
       "The time of a row is that of its whole frame: depth in memory to verified instances.\n"
       "\n"
       "Example:\n"
       "  graspd bank compile --bop /data/synth_dev -o banks\n"
-      "  graspd validate --bop /data/synth_dev --split val --banks banks -o results.csv");
+      "  graspd validate --bop /data/synth_dev --split val --banks banks -o results.csv\n"
+      "  graspd validate --bop /data/synth_dev --split val --banks banks -o results.csv --explain");
   command->callback([options, &outcome] { outcome = run_validation(*options); });
 }
 

@@ -83,8 +83,10 @@ Status validate_image(const ValidationOptions& options, const DataSet& data, Eva
   request.banks = banks;
   if (!options.without_empty_bin && !file.value().empty_depth.empty()) request.empty_bin = file.value().empty_bin();
   request.now_ns = &monotonic_ns;
+  request.minimum_score = options.minimum_score;
   DetectParameters parameters;
   parameters.threads = options.threads;
+  parameters.verify.tests = !options.without_tests;
   Detections detections;
   session.fit({frame.camera.width, frame.camera.height}, data.banks.banks, options.threads);
   if (trace != nullptr) request.trace = &trace->trace();
@@ -106,7 +108,7 @@ Status validate_image(const ValidationOptions& options, const DataSet& data, Eva
   if (image.annotated) {
     validation.errors.push_back(image_errors(image, frame, data.parts));
     if (trace != nullptr) {
-      explain_image(image, validation.errors.back(), data.parts, banks, trace->trace(), detections, parameters.verify,
+      explain_image(image, validation.errors.back(), data.parts, request, detections, parameters.verify,
                     validation.explanation);
     }
   }

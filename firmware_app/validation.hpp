@@ -23,6 +23,8 @@ struct ValidationOptions {
   int threads = 1;
   bool without_empty_bin = false;  ///< Do not use the scenes' empty frames.
   bool explain = false;            ///< Find out where right poses were lost.
+  float minimum_score = -1.0F;     ///< Overrides the banks' thresholds when not negative.
+  bool without_tests = false;      ///< Let the score alone decide (ablation).
 };
 
 /// What was found in all images of the targets file.

@@ -65,7 +65,7 @@ struct TargetFate {
   float reported = 0;      ///< MSSD of the nearest reported pose; infinite when none is nearer than 1 (diameter).
 };
 
-/// A judged pose and whether it is right.
+/// A judged pose and whether it is right: near a true pose, however many others are.
 struct JudgedFate {
   std::size_t judged = 0;  ///< Index into PartChain::judged.
   float error = 0;         ///< MSSD to the nearest true pose, as a share of the diameter; infinite beyond 1.
