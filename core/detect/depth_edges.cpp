@@ -7,7 +7,7 @@ namespace graspd {
 
 namespace {
 
-constexpr int widest_gap = 4;
+constexpr int widest_gap = 12;
 
 /// True when the scene falls away in direction (du, dv), seen from a cell of the foreground.
 bool falls_away(const SceneMap& map, int u, int v, int du, int dv) {

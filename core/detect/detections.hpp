@@ -35,6 +35,7 @@ struct Evidence {
   float measured = 0;   ///< Share of that surface for which the sensor saw anything.
   float boundary = 0;   ///< Share of the model that stands where the scene shows free space.
   float edge = 0;       ///< Share of the decided outline that agrees with the scene.
+  float contour = 0;    ///< Share of the decided outline that lies on a depth edge of the scene.
   float relief = 0;     ///< Spread of the normals of the confirmed surface: 0 flat, 2/3 a ball.
   float below = 0;      ///< Share of the model below the plane or inside accepted instances.
   float residual = 0;   ///< Root mean square distance of confirmed points, in voxels of the bank.

@@ -71,10 +71,11 @@ Instance judge(const Scene& scene, const Bank& bank, std::uint32_t bank_index, c
   instance.bank = bank_index;
   instance.view = cluster.view;
   instance.votes = cluster.votes;
-  instance.camera_from_part = refine_finely(scene.map, scene.edges, bank, cluster.camera_from_part, parameters.refine);
+  instance.camera_from_part =
+      refine_finely(scene.map, scene.edges, bank, cluster.camera_from_part, parameters.refine, image);
   const RenderedModel model = render_model(scene.map, bank, instance.camera_from_part, image.first(image.size() / 2),
                                            image.subspan(image.size() / 2));
-  instance.evidence = gather_evidence(scene.map, bank, model, parameters.verify, {});
+  instance.evidence = gather_evidence(scene.map, scene.edges, bank, model, parameters.verify, {});
   instance.score = score_of(instance.evidence);
   if (parameters.verify.tests)
     instance.rejection = failed_test(instance.evidence, parameters.verify, bank.part->thresholds);
@@ -154,8 +155,8 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
   if (late(request)) detections.flags |= flag_deadline;
 
   detections.flags |=
-      select_instances(scene.map, request.banks, parameters.verify, request.minimum_score, workspace.judged.span(),
-                       workspace.select, workspace.accepted, workspace.rejected);
+      select_instances(scene.map, scene.edges, request.banks, parameters.verify, request.minimum_score,
+                       workspace.judged.span(), workspace.select, workspace.accepted, workspace.rejected);
   clock.end_of(Stage::verify);
   for (const Instance& instance : workspace.rejected)
     ++detections.rejections[static_cast<std::size_t>(instance.rejection)];

@@ -47,6 +47,8 @@ struct RefineParameters {
   float coarse_gate = 1.0F;  ///< The same in the last coarse iteration
   float last_gate = 0.4F;    ///< and in the last of all.
   int fine_iterations = 6;
+  int fine_rounds = 2;     ///< The contour is rendered anew each round.
+  float edge_gate = 1.5F;  ///< Voxels: contours further from the scene's edges are ignored in the fine iterations.
   int fine_points = 400;
   float same_rotation = 0.1F;     ///< Radians: coarse poses this close and
   float same_translation = 1.0F;  ///< this close (voxels) are one.

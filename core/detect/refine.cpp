@@ -2,9 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/detect/consistency.hpp"
+#include "core/detect/contour.hpp"
 #include "core/detect/parallel_for.hpp"
 #include "core/detect/visible_surface.hpp"
 
@@ -18,6 +20,7 @@ using Vector6 = Eigen::Matrix<float, 6, 1>;
 constexpr float compatible_normal = 0.5F;
 constexpr int fewest_pairs = 10;
 constexpr float edge_weight = 0.5F;
+constexpr std::size_t most_contour_points = 256;
 
 /// The normal equations of one iteration; turns are about the part's centre, in units of its radius, so
 /// that turns and shifts weigh alike.
@@ -59,20 +62,21 @@ void accumulate_surface(const SceneMap& map, const Bank& bank, const RigidTransf
 
 /// Draws the edges of the part to where the scene falls away: across the edge, in the plane that faces
 /// the sensor. Surfaces alone do not hold a flat part in its plane.
-void accumulate_edges(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RigidTransform& pose,
-                      int points, float gate, NormalEquations& equations) {
+void accumulate_edges(const SceneMap& map, const DepthEdges& edges, const Bank& bank,
+                      std::span<const EdgePoint> contour, const RigidTransform& pose, int points, float gate,
+                      NormalEquations& equations) {
   const Vector3 centre = pose * bank.part->centre;
   const float inverse_radius = 2.0F / bank.part->diameter;
-  const std::size_t step = std::max<std::size_t>(1, bank.edges.size() / static_cast<std::size_t>(std::max(points, 1)));
-  for (std::size_t i = 0; i < bank.edges.size(); i += step) {
-    const Vector3 point = pose * bank.edges[i].position;
+  const std::size_t step = std::max<std::size_t>(1, contour.size() / static_cast<std::size_t>(std::max(points, 1)));
+  for (std::size_t i = 0; i < contour.size(); i += step) {
+    const Vector3 point = pose * contour[i].position;
     const MapCell* cell = map.look_up(point);
     if (cell == nullptr) continue;
     const std::uint32_t nearest = edges.nearest[static_cast<std::size_t>(cell - map.cells.data())];
     if (nearest == no_edge) continue;
     const Vector3 gap = map.cells[nearest].point - point;
     if (gap.squaredNorm() > gate * gate) continue;
-    const Vector3 across = point.cross(pose.rotation * bank.edges[i].tangent);
+    const Vector3 across = point.cross(pose.rotation * contour[i].tangent);
     const float length = across.norm();
     // An edge that points at the sensor has no side to be drawn to.
     if (length < 0.3F * point.norm()) continue;
@@ -94,7 +98,8 @@ RigidTransform step_from(const Vector6& solution, const Vector3& centre, float r
 }  // namespace
 
 RigidTransform refine_pose(const SceneMap& map, const DepthEdges& edges, const Bank& bank,
-                           const RigidTransform& camera_from_part, const IcpSchedule& schedule) {
+                           std::span<const EdgePoint> contour, const RigidTransform& camera_from_part,
+                           const IcpSchedule& schedule) {
   RigidTransform pose = camera_from_part;
   const float radius = 0.5F * bank.part->diameter;
   const auto steps = static_cast<float>(std::max(schedule.iterations - 1, 1));
@@ -104,7 +109,7 @@ RigidTransform refine_pose(const SceneMap& map, const DepthEdges& edges, const B
     NormalEquations equations;
     accumulate_surface(map, bank, pose, schedule.points, gate, equations);
     if (equations.pairs < fewest_pairs) break;
-    accumulate_edges(map, edges, bank, pose, schedule.points, gate, equations);
+    accumulate_edges(map, edges, bank, contour, pose, schedule.points, std::max(gate, schedule.edge_gate), equations);
     Matrix6 damped = equations.hessian;
     damped.diagonal().array() += 0.01F * equations.hessian.trace() / 6.0F;
     const Vector6 solution = damped.ldlt().solve(equations.gradient);
@@ -118,10 +123,10 @@ void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& b
                      int threads, FixedVector<PoseCluster>& clusters) {
   const float voxel = bank.part->sampling;
   const IcpSchedule schedule{parameters.coarse_iterations, parameters.coarse_points, parameters.first_gate * voxel,
-                             parameters.coarse_gate * voxel};
+                             parameters.coarse_gate * voxel, 0.0F};
   parallel_for(clusters.size(), threads, 4, [&](std::size_t k) {
     PoseCluster& cluster = clusters[k];
-    cluster.camera_from_part = refine_pose(map, edges, bank, cluster.camera_from_part, schedule);
+    cluster.camera_from_part = refine_pose(map, edges, bank, bank.edges, cluster.camera_from_part, schedule);
     cluster.score =
         scene_consistency(map, bank, cluster.camera_from_part, 2 * parameters.coarse_points, 0.6F * voxel).score();
   });
@@ -148,11 +153,20 @@ void keep_distinct(const Bank& bank, const RefineParameters& parameters, FixedVe
 }
 
 RigidTransform refine_finely(const SceneMap& map, const DepthEdges& edges, const Bank& bank,
-                             const RigidTransform& camera_from_part, const RefineParameters& parameters) {
+                             const RigidTransform& camera_from_part, const RefineParameters& parameters,
+                             std::span<float> image) {
   const float voxel = bank.part->sampling;
-  return refine_pose(map, edges, bank, camera_from_part,
-                     {parameters.fine_iterations, parameters.fine_points, parameters.coarse_gate * voxel,
-                      parameters.last_gate * voxel});
+  std::array<EdgePoint, most_contour_points> contour;
+  RigidTransform pose = camera_from_part;
+  const IcpSchedule schedule{parameters.fine_iterations / std::max(parameters.fine_rounds, 1), parameters.fine_points,
+                             parameters.coarse_gate * voxel, parameters.last_gate * voxel,
+                             parameters.edge_gate * voxel};
+  for (int round = 0; round < parameters.fine_rounds; ++round) {
+    const RenderedModel model = render_model(map, bank, pose, image, {});
+    const std::size_t count = find_contour(map, model, pose, contour);
+    pose = refine_pose(map, edges, bank, std::span(contour).first(count), pose, schedule);
+  }
+  return pose;
 }
 
 }  // namespace graspd

@@ -7,6 +7,9 @@ namespace graspd {
 
 namespace {
 
+constexpr int most_rounds = 3;
+constexpr float hopeless_score = 0.02F;
+
 /// Share of the candidate's cells in which its body and an accepted one's would share room.
 float shared_room(const RenderedModel& candidate, const SelectWorkspace& workspace, float tolerance) {
   float cells = 0;
@@ -57,6 +60,58 @@ void claim(const SceneMap& map, const RenderedModel& model, float tolerance, std
   }
 }
 
+/// What does not change while instances are selected.
+struct Selection {
+  const SceneMap& map;
+  const DepthEdges& edges;
+  std::span<const Bank> banks;
+  const VerifyParameters& parameters;
+  float minimum_score;
+
+  [[nodiscard]] float threshold(const Instance& instance) const {
+    return minimum_score >= 0.0F ? minimum_score : banks[instance.bank].part->thresholds.minimum_score;
+  }
+};
+
+enum class Outcome : std::uint8_t { accepted, refused, no_room };
+
+/// Judges a hypothesis anew by what the accepted ones leave of the scene, and claims its surface if it holds.
+Outcome consider(const Selection& selection, Instance& instance, SelectWorkspace& workspace,
+                 FixedVector<Instance>& accepted) {
+  const Bank& bank = selection.banks[instance.bank];
+  const VerifyParameters& parameters = selection.parameters;
+  const float tolerance = parameters.tolerance * bank.part->sampling;
+  const std::size_t used = used_room(workspace);
+  const RenderedModel model = render_model(selection.map, bank, instance.camera_from_part,
+                                           workspace.front.subspan(used), workspace.back.subspan(used));
+  if (model.rectangle.empty() || accepted.full() || workspace.rooms.full()) return Outcome::no_room;
+  const Evidence own = gather_evidence(selection.map, selection.edges, bank, model, parameters, workspace.claimed);
+  instance.rejection = Rejection::none;
+  if (own.confirmed < 0.5F * instance.evidence.confirmed) {
+    instance.rejection = Rejection::duplicate;
+    return Outcome::refused;
+  }
+  instance.evidence = own;
+  instance.score = score_of(own);
+  if (parameters.tests) instance.rejection = failed_test(own, parameters, bank.part->thresholds);
+  if (instance.rejection == Rejection::none && instance.score < selection.threshold(instance))
+    instance.rejection = Rejection::score;
+  if (instance.rejection == Rejection::none && parameters.tests &&
+      shared_room(model, workspace, 2.0F * tolerance) > 0.25F)
+    instance.rejection = Rejection::intersecting;
+  if (instance.rejection != Rejection::none) return Outcome::refused;
+  claim(selection.map, model, tolerance, static_cast<std::uint16_t>(accepted.size() + 1), workspace.claimed);
+  workspace.rooms.push_back({model.rectangle, used});
+  accepted.push_back(instance);
+  return Outcome::accepted;
+}
+
+/// Whether what others claim can still speak for a refused hypothesis.
+bool may_recover(const Instance& instance) {
+  return instance.score >= hopeless_score && instance.rejection != Rejection::weak &&
+         instance.rejection != Rejection::duplicate && instance.rejection != Rejection::intersecting;
+}
+
 }  // namespace
 
 SelectWorkspace carve_select_workspace(Arena& arena, const DetectCapacity& capacity) {
@@ -69,42 +124,41 @@ SelectWorkspace carve_select_workspace(Arena& arena, const DetectCapacity& capac
   return workspace;
 }
 
-std::uint32_t select_instances(const SceneMap& map, std::span<const Bank> banks, const VerifyParameters& parameters,
-                               float minimum_score, std::span<Instance> judged, SelectWorkspace& workspace,
-                               FixedVector<Instance>& accepted, FixedVector<Instance>& rejected) {
+std::uint32_t select_instances(const SceneMap& map, const DepthEdges& edges, std::span<const Bank> banks,
+                               const VerifyParameters& parameters, float minimum_score, std::span<Instance> judged,
+                               SelectWorkspace& workspace, FixedVector<Instance>& accepted,
+                               FixedVector<Instance>& rejected) {
+  const Selection selection{map, edges, banks, parameters, minimum_score};
   std::uint32_t flags = 0;
   workspace.rooms.clear();
   std::fill_n(workspace.claimed.begin(), map.cells.size(), std::uint16_t{0});
-  const std::span<std::uint32_t> order = workspace.order.first(judged.size());
+  std::span<std::uint32_t> order = workspace.order.first(judged.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return judged[a].score != judged[b].score ? judged[a].score > judged[b].score : a < b;
-  });
-  for (const std::uint32_t j : order) {
-    Instance instance = judged[j];
-    const Bank& bank = banks[instance.bank];
-    const float threshold = minimum_score >= 0.0F ? minimum_score : bank.part->thresholds.minimum_score;
-    const float tolerance = parameters.tolerance * bank.part->sampling;
-    if (instance.rejection == Rejection::none && instance.score < threshold) instance.rejection = Rejection::score;
-    if (instance.rejection == Rejection::none) {
-      const std::size_t used = used_room(workspace);
-      const RenderedModel model = render_model(map, bank, instance.camera_from_part, workspace.front.subspan(used),
-                                               workspace.back.subspan(used));
-      const Evidence own = gather_evidence(map, bank, model, parameters, workspace.claimed);
-      if (own.confirmed < 0.5F * instance.evidence.confirmed) {
-        instance.rejection = Rejection::duplicate;
-      } else if (parameters.tests && shared_room(model, workspace, 2.0F * tolerance) > 0.25F) {
-        instance.rejection = Rejection::intersecting;
-      } else if (model.rectangle.empty() || accepted.full() || !workspace.rooms.push_back({model.rectangle, used})) {
-        flags |= flag_instances_cut;
-        continue;
-      } else {
-        claim(map, model, tolerance, static_cast<std::uint16_t>(accepted.size() + 1), workspace.claimed);
-        accepted.push_back(instance);
+  for (int round = 0; round < most_rounds && !order.empty(); ++round) {
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return judged[a].score != judged[b].score ? judged[a].score > judged[b].score : a < b;
+    });
+    const std::size_t accepted_before = accepted.size();
+    std::size_t left = 0;
+    for (const std::uint32_t j : order) {
+      Instance& instance = judged[j];
+      // The first round takes what holds by itself; later ones ask again, since neighbours that were taken
+      // account for surfaces that spoke against a hypothesis.
+      if (round == 0 && instance.rejection == Rejection::none && instance.score < selection.threshold(instance))
+        instance.rejection = Rejection::score;
+      const bool asked = round == 0 ? instance.rejection == Rejection::none : may_recover(instance);
+      const Outcome outcome = asked ? consider(selection, instance, workspace, accepted) : Outcome::refused;
+      if (outcome == Outcome::no_room) flags |= flag_instances_cut;
+      if (outcome == Outcome::refused && may_recover(instance)) {
+        order[left++] = j;
+      } else if (outcome == Outcome::refused) {
+        rejected.push_back(instance);
       }
     }
-    if (instance.rejection != Rejection::none) rejected.push_back(instance);
+    order = order.first(left);
+    if (round > 0 && accepted.size() == accepted_before) break;
   }
+  for (const std::uint32_t j : order) rejected.push_back(judged[j]);
   return flags;
 }
 

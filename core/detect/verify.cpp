@@ -69,15 +69,21 @@ bool on_rim(const RenderedModel& model, int u, int v) {
                      [&](const auto& d) { return !rendered_at(model, u + d[0], v + d[1]); });
 }
 
+bool is_claimed(const SceneMap& map, std::span<const std::uint16_t> claimed, int u, int v) {
+  return !claimed.empty() && claimed[map.camera.index(u, v)] != 0;
+}
+
 /// Votes of the outline on whether the scene ends where the model ends.
 struct OutlineCount {
   int consistent = 0;
   int inconsistent = 0;
+  int matched = 0;
 };
 
 /// Looks beyond the rim at (u, v) in direction (du, dv): a surface that goes on there, as the extension
 /// of the one inside, contradicts the rim. Sensors round edges off, so the majority of a few cells decides.
-void judge_rim(const SceneMap& map, const RenderedModel& model, int u, int v, int du, int dv, float tolerance,
+void judge_rim(const SceneMap& map, const DepthEdges& edges, const RenderedModel& model,
+               std::span<const std::uint16_t> claimed, int u, int v, int du, int dv, float tolerance,
                OutlineCount& count) {
   constexpr int first = 2;
   constexpr int last = 6;
@@ -93,6 +99,8 @@ void judge_rim(const SceneMap& map, const RenderedModel& model, int u, int v, in
     if (!map.camera.contains(model.rectangle.left + x, model.rectangle.top + y)) break;
     const MapCell& beyond = map.at(model.rectangle.left + x, model.rectangle.top + y);
     if (!beyond.measured()) continue;
+    // A neighbour may go on where this one ends.
+    if (is_claimed(map, claimed, model.rectangle.left + x, model.rectangle.top + y)) break;
     // What stands in front hides whether the surface ends.
     if (beyond.point.z() - front < -4.0F * tolerance) break;
     ++seen;
@@ -100,7 +108,15 @@ void judge_rim(const SceneMap& map, const RenderedModel& model, int u, int v, in
     const bool on_plane = std::abs(inside.normal.dot(beyond.point - inside.point)) < tolerance;
     going_on += on_plane && (!beyond.has_normal() || inside.normal.dot(beyond.normal) > 0.85F) ? 1 : 0;
   }
-  if (seen > 0) ++(2 * going_on > seen ? count.inconsistent : count.consistent);
+  if (seen > 0) {
+    ++(2 * going_on > seen ? count.inconsistent : count.consistent);
+    const std::uint32_t nearest = edges.nearest[map.camera.index(model.rectangle.left + u, model.rectangle.top + v)];
+    if (nearest != no_edge) {
+      const int x = static_cast<int>(nearest) % map.camera.width - model.rectangle.left - u;
+      const int y = static_cast<int>(nearest) / map.camera.width - model.rectangle.top - v;
+      if (x * x + y * y <= 2) ++count.matched;
+    }
+  }
 }
 
 /// 0 for normals that are all alike, up to 2/3 for normals that point everywhere.
@@ -139,7 +155,7 @@ RenderedModel render_model(const SceneMap& map, const Bank& bank, const RigidTra
   return model;
 }
 
-Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedModel& model,
+Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RenderedModel& model,
                          const VerifyParameters& parameters, std::span<const std::uint16_t> claimed) {
   Evidence evidence;
   const float tolerance = parameters.tolerance * bank.part->sampling;
@@ -166,12 +182,11 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
         below += front > limit ? 0.5F : 0.0F;
         below += !model.back.empty() && model.back[index] > limit ? 0.5F : 0.0F;
       }
-      if (!claimed.empty() && claimed[map.camera.index(map_u, map_v)] != 0) {
-        counts[static_cast<std::size_t>(CellVerdict::occluded)] += 1.0F;
-        continue;
-      }
       const bool rim = on_rim(model, u, v);
       Verdict verdict = judge(cell, model, u, v, tolerance);
+      // What a better instance explains hides this one, unless this one would stand before it.
+      if (is_claimed(map, claimed, map_u, map_v) && verdict.verdict != CellVerdict::behind)
+        verdict.verdict = CellVerdict::occluded;
       // Pixels at an edge mix both sides, so a rim that seems to stand before free space says nothing.
       if (rim && verdict.verdict == CellVerdict::behind) verdict.verdict = CellVerdict::unmeasured;
       counts[static_cast<std::size_t>(verdict.verdict)] += 1.0F;
@@ -183,7 +198,8 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
       }
       if (!rim) continue;
       for (const auto& [du, dv] : directions) {
-        if (!rendered_at(model, u + du, v + dv)) judge_rim(map, model, u, v, du, dv, tolerance, outline);
+        if (!rendered_at(model, u + du, v + dv))
+          judge_rim(map, edges, model, claimed, u, v, du, dv, tolerance, outline);
       }
     }
   }
@@ -204,17 +220,19 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   evidence.relief = normal_count > 0.0F ? relief_of(normals / normal_count) : 0.0F;
   const int decided = outline.consistent + outline.inconsistent;
   evidence.edge = decided > 0 ? static_cast<float>(outline.consistent) / static_cast<float>(decided) : 1.0F;
+  evidence.contour = decided > 0 ? static_cast<float>(outline.matched) / static_cast<float>(decided) : 0.5F;
   return evidence;
 }
 
 float score_of(const Evidence& evidence) {
-  // A logistic regression over refined hypotheses of simulated bins, right or wrong by MSSD.
+  // A logistic regression over the best hypotheses at each place in simulated bins of two dozen parts, right or
+  // wrong by MSSD.
   const auto log_odds = [](float share) { return std::log((share + 0.02F) / (1.02F - share)); };
-  // The outline of a right pose agrees at least in nine of ten places; that is taken as given.
-  const float outline = outline_weight(evidence.relief) * (log_odds(evidence.edge) - log_odds(0.9F));
-  const float sum = -3.0F + 0.5F * log_odds(evidence.visible) + 0.5F * std::log1p(evidence.confirmed) +
-                    0.9F * log_odds(evidence.purity) + outline - 15.0F * evidence.boundary - 22.0F * evidence.below -
-                    7.0F * evidence.residual;
+  // The outline of a right pose agrees in nine of ten places; what is above says nothing.
+  const float outline = outline_weight(evidence.relief) * std::min(0.0F, log_odds(evidence.edge) - log_odds(0.9F));
+  const float sum = -2.3F + 0.65F * log_odds(evidence.visible) + 0.7F * std::log1p(evidence.confirmed) +
+                    0.65F * log_odds(evidence.purity) + outline + 0.34F * log_odds(evidence.contour) -
+                    7.8F * evidence.boundary - 8.6F * evidence.below - 4.9F * evidence.residual;
   return evidence.confirmed > 0.0F ? 1.0F / (1.0F + std::exp(-sum)) : 0.0F;
 }
 

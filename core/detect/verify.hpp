@@ -5,6 +5,7 @@
 
 #include "core/bank/bank.hpp"
 #include "core/detect/background.hpp"
+#include "core/detect/depth_edges.hpp"
 #include "core/detect/detections.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/detect/scene_map.hpp"
@@ -28,8 +29,9 @@ struct RenderedModel {
 /// Holds the rendered model against the measured scene (paper 2.4.2). Cells that the sensor did not
 /// see are neutral; cells where the scene lies behind the model count against it. `claimed` marks
 /// cells that better instances explain, by a number other than 0; may be empty.
-[[nodiscard]] Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedModel& model,
-                                       const VerifyParameters& parameters, std::span<const std::uint16_t> claimed);
+[[nodiscard]] Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Bank& bank,
+                                       const RenderedModel& model, const VerifyParameters& parameters,
+                                       std::span<const std::uint16_t> claimed);
 
 /// The confidence in a pose from its evidence, in [0, 1].
 [[nodiscard]] float score_of(const Evidence& evidence);
