@@ -2,13 +2,7 @@
 
 #include <algorithm>
 
-#include "core/detect/visible_surface.hpp"
-
 namespace graspd {
-
-namespace {
-constexpr float same_normal = 0.7F;
-}
 
 Consistency scene_consistency(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part, int points,
                               float tolerance) {
@@ -26,8 +20,7 @@ Consistency scene_consistency(const SceneMap& map, const Bank& bank, const Rigid
       ++result.behind;
     } else if (gap < -tolerance) {
       ++result.occluded;
-    } else if (cell->foreground != 0 && cell->has_normal() &&
-               cell->normal.dot(camera_from_part.rotation * surface.normal) > same_normal) {
+    } else if (confirms(*cell, point, camera_from_part.rotation * surface.normal, tolerance)) {
       ++result.confirmed;
     }
   });

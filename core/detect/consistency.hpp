@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 
 #include "core/bank/bank.hpp"
 #include "core/detect/scene_map.hpp"
+#include "core/detect/visible_surface.hpp"
 
 namespace graspd {
 
@@ -28,5 +30,25 @@ struct Consistency {
 /// `tolerance` metres along the ray. Points that the pose hides by itself are left out.
 [[nodiscard]] Consistency scene_consistency(const SceneMap& map, const Bank& bank,
                                             const RigidTransform& camera_from_part, int points, float tolerance);
+
+/// Whether a cell of the foreground confirms a surface point of the posed part: within `tolerance` along the
+/// ray, with a like normal.
+[[nodiscard]] inline bool confirms(const MapCell& cell, const Vector3& point, const Vector3& normal, float tolerance) {
+  constexpr float same_normal = 0.7F;
+  return cell.foreground != 0 && std::abs(cell.point.z() - point.z()) <= tolerance && cell.has_normal() &&
+         cell.normal.dot(normal) > same_normal;
+}
+
+/// Calls visit(index of the map cell) for each of up to `points` visible surface points that is confirmed.
+template <class Visit>
+void for_each_confirmed(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part, int points,
+                        float tolerance, Visit visit) {
+  for_each_visible(bank, camera_from_part, points, [&](const SurfacePoint& surface) {
+    const Vector3 point = camera_from_part * surface.position;
+    const MapCell* cell = map.look_up(point);
+    if (cell != nullptr && confirms(*cell, point, camera_from_part.rotation * surface.normal, tolerance))
+      visit(static_cast<std::size_t>(cell - map.cells.data()));
+  });
+}
 
 }  // namespace graspd

@@ -6,6 +6,7 @@
 
 #include "core/detect/parallel_for.hpp"
 #include "core/detect/refine.hpp"
+#include "core/detect/spread.hpp"
 #include "core/detect/verify.hpp"
 
 namespace graspd {
@@ -139,13 +140,19 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     if (workspace.clusters.dropped() > 0) detections.flags |= flag_hypotheses_cut;
     rate_plausibility(scene.map, bank, parameters.threads, workspace.clusters);
     record(request.trace, b, TracedStage::clustered, workspace.clusters);
-    workspace.clusters.truncate(static_cast<std::size_t>(std::max(parameters.cluster.plausible, 0)));
+    keep_spread(scene.map, bank,
+                {parameters.cluster.plausible, parameters.cluster.plausible_per_place, 100, bank.part->sampling},
+                workspace.select.claimed, workspace.clusters);
     record(request.trace, b, TracedStage::plausible, workspace.clusters);
     clock.end_of(Stage::cluster);
 
     refine_coarsely(scene.map, scene.edges, bank, parameters.refine, parameters.threads, workspace.clusters);
     record(request.trace, b, TracedStage::aligned, workspace.clusters);
     keep_distinct(bank, parameters.refine, workspace.clusters);
+    keep_spread(scene.map, bank,
+                {parameters.refine.judged, parameters.refine.judged_per_place, 2 * parameters.refine.coarse_points,
+                 0.6F * bank.part->sampling},
+                workspace.select.claimed, workspace.clusters);
     record(request.trace, b, TracedStage::distinct, workspace.clusters);
     clock.end_of(Stage::refine);
 

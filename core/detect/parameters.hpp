@@ -33,9 +33,10 @@ struct MatchParameters {
 
 /// Clustering (paper 3.2: 15 degrees, 3 voxels) and the choice of what is refined.
 struct ClusterParameters {
-  float rotation = 0.26F;    ///< Radians.
-  float translation = 3.0F;  ///< Voxels.
-  int plausible = 500;       ///< Clusters that go on to refinement, for one part.
+  float rotation = 0.26F;        ///< Radians.
+  float translation = 1.5F;      ///< Voxels; wider clusters blur parts that nearly repeat, such as gears.
+  int plausible = 2000;          ///< Clusters that go on to refinement, for one part
+  int plausible_per_place = 20;  ///< and for one place of the scene.
 };
 
 /// Iterative closest point against the organised map, coarse for all plausible clusters, then fine for
@@ -52,7 +53,8 @@ struct RefineParameters {
   int fine_points = 400;
   float same_rotation = 0.1F;     ///< Radians: coarse poses this close and
   float same_translation = 1.0F;  ///< this close (voxels) are one.
-  int judged = 200;               ///< Poses that are refined to the end and verified, for one part.
+  int judged = 600;               ///< Poses that are refined to the end and verified, for one part
+  int judged_per_place = 6;       ///< and for one place of the scene.
 };
 
 /// Verification (paper 2.4.2); the thresholds come from the bank.

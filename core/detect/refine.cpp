@@ -137,7 +137,7 @@ void keep_distinct(const Bank& bank, const RefineParameters& parameters, FixedVe
   const Symmetry symmetry = bank.symmetry();
   const float reach = parameters.same_translation * bank.part->sampling;
   std::size_t kept = 0;
-  for (std::size_t k = 0; k < clusters.size() && kept < static_cast<std::size_t>(parameters.judged); ++k) {
+  for (std::size_t k = 0; k < clusters.size(); ++k) {
     const Vector3 centre = clusters[k].camera_from_part * bank.part->centre;
     bool met = false;
     for (std::size_t other = 0; other < kept && !met; ++other) {

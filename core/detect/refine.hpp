@@ -30,7 +30,7 @@ struct IcpSchedule {
 void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
                      int threads, FixedVector<PoseCluster>& clusters);
 
-/// Makes one of the clusters that have met, and keeps the best, best first.
+/// Makes one of the clusters that have met, best first.
 void keep_distinct(const Bank& bank, const RefineParameters& parameters, FixedVector<PoseCluster>& clusters);
 
 /// The last iterations for a pose that was refined coarsely, with the contour that it shows to the sensor:
