@@ -64,11 +64,11 @@ def perturbed(data, seed=1):
                 R = np.array(truth["cam_R_m2c"]).reshape(3, 3)
                 t = np.array(truth["cam_t_m2c"]) + R @ symmetry["t"].ravel()
                 R = R @ symmetry["R"]
+                amount = 10 ** random.uniform(-3, -0.4)
                 if 0.8 < kind < 0.9:
                     R = turn(random, random.uniform(0.5, np.pi)) @ R
                     t = t + random.normal(size=3) * [0.3 * diameter, 0.3 * diameter, 0.1 * diameter]
                 else:
-                    amount = 10 ** random.uniform(-3, -0.4)
                     R = R @ turn(random, random.normal() * amount)
                     t = t + random.normal(size=3) * amount * diameter * 0.5
                 yield scene, image, obj, random.random(), R, t
@@ -78,7 +78,7 @@ def write_results(estimates, path):
     with open(path, "w") as out:
         out.write("scene_id,im_id,obj_id,score,R,t,time\n")
         for scene, image, obj, score, R, t in estimates:
-            numbers = [" ".join(f"{x:.9f}" for x in values.ravel()) for values in (R, t)]
+            numbers = [" ".join(f"{x:.{digits}f}" for x in values.ravel()) for values, digits in ((R, 9), (t, 7))]
             out.write(f"{scene},{image},{obj},{score:.6f},{numbers[0]},{numbers[1]},1.0\n")
 
 
