@@ -149,9 +149,11 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     refine_coarsely(scene.map, scene.edges, bank, parameters.refine, parameters.threads, workspace.clusters);
     record(request.trace, b, TracedStage::aligned, workspace.clusters);
     keep_distinct(bank, parameters.refine, workspace.clusters);
+    // Each part gets its share of the memory, whatever came before it.
+    const std::size_t share = workspace.capacity.judged / request.banks.size();
     keep_spread(scene.map, bank,
-                {parameters.refine.judged, parameters.refine.judged_per_place, 2 * parameters.refine.coarse_points,
-                 0.6F * bank.part->sampling},
+                {std::min(parameters.refine.judged, static_cast<int>(share)), parameters.refine.judged_per_place,
+                 2 * parameters.refine.coarse_points, 0.6F * bank.part->sampling},
                 workspace.select.claimed, workspace.clusters);
     record(request.trace, b, TracedStage::distinct, workspace.clusters);
     clock.end_of(Stage::refine);

@@ -72,7 +72,7 @@ struct DetectCapacity {
   std::uint32_t scene_points = 20000;
   std::uint32_t hypotheses = 40000;  ///< Peaks of the voting, over all references and views of one part.
   std::uint32_t clusters = 6000;
-  std::uint32_t judged = 1600;              ///< Hypotheses that are refined and verified, over all parts.
+  std::uint32_t judged = 4000;              ///< Hypotheses that are refined and verified, over all parts.
   std::uint32_t instances = 100;            ///< Accepted, over all parts.
   std::uint32_t maximum_references = 8192;  ///< References of all views of one bank.
   std::uint32_t maximum_cells = 65536;      ///< Cells of one bank's PPF grid.
