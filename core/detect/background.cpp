@@ -119,7 +119,7 @@ void remove_background_by_frame(SceneMap& empty_bin, float margin, int threads, 
   });
 }
 
-SupportPlane remove_background_by_plane(float margin, int threads, SceneMap& map) {
+SupportPlane remove_background_by_plane(float margin, float slack, int threads, SceneMap& map) {
   std::array<Vector3, plane_samples> storage;
   std::size_t count = 0;
   std::size_t measured = 0;
@@ -157,7 +157,7 @@ SupportPlane remove_background_by_plane(float margin, int threads, SceneMap& map
       MapCell& cell = map.at(u, v);
       const Vector3 ray = map.camera.point(static_cast<float>(u), static_cast<float>(v), 1.0F);
       const float slope = best.normal.dot(ray);
-      if (slope < -1e-3F) cell.background = best.offset / slope;
+      if (slope < -1e-3F) cell.background = (best.offset - slack) / slope;
       if (cell.measured() && best.height(cell.point) < margin) cell.foreground = 0;
     }
   });

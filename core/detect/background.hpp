@@ -23,8 +23,9 @@ void remove_background_by_frame(SceneMap& empty_bin, float margin, int threads, 
 
 /// Finds the dominant plane behind which next to nothing is measured, and marks what does not stand
 /// out from it as background. Finds none when no such plane holds a fair share of the scene: then all
-/// that is measured stays foreground.
-[[nodiscard]] SupportPlane remove_background_by_plane(float margin, int threads, SceneMap& map);
+/// that is measured stays foreground. The plane is a guess, and no bin is flat to the millimetre: the depth of
+/// the background is written `slack` metres below it.
+[[nodiscard]] SupportPlane remove_background_by_plane(float margin, float slack, int threads, SceneMap& map);
 
 /// Marks as background what lies outside a box.
 void remove_background_by_box(const RigidTransform& box_from_camera, const Vector3& half_size, int threads,

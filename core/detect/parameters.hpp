@@ -18,7 +18,8 @@ enum class BackgroundMode : std::uint8_t {
 struct PreprocessParameters {
   BackgroundMode background = BackgroundMode::automatic;
   float background_margin = 0.0015F;  ///< What stands out less than this (metres) from the background belongs to it.
-  RigidTransform box_from_camera;     ///< For BackgroundMode::box.
+  float plane_slack = 1.0F;        ///< Voxels that a part may stand below a plane that was found in the frame itself.
+  RigidTransform box_from_camera;  ///< For BackgroundMode::box.
   Vector3 box_half_size = Vector3::Zero();  ///< Metres; for BackgroundMode::box.
   bool segmentation = true;                 ///< Drop connected surfaces too small to be a part.
   float cells_per_voxel = 4.0F;             ///< Resolution of the organised map, in cells along a voxel edge.

@@ -64,7 +64,8 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float sam
     bin_frame(empty_bin, threads, empty_map);
     remove_background_by_frame(empty_map, parameters.background_margin, threads, scene.map);
   } else if (parameters.background == BackgroundMode::automatic || parameters.background == BackgroundMode::plane) {
-    scene.plane = remove_background_by_plane(parameters.background_margin, threads, scene.map);
+    scene.plane =
+        remove_background_by_plane(parameters.background_margin, parameters.plane_slack * sampling, threads, scene.map);
   } else if (parameters.background == BackgroundMode::box) {
     remove_background_by_box(parameters.box_from_camera, parameters.box_half_size, threads, scene.map);
   }
