@@ -35,7 +35,9 @@ struct NeighbourGrid {
     const Eigen::Vector3i high = cell_of(centre.array() + radius);
     for (int z = low.z(); z <= high.z(); ++z) {
       for (int y = low.y(); y <= high.y(); ++y) {
-        const auto row = static_cast<std::size_t>((z * size.y() + y) * size.x());
+        const auto line =
+            static_cast<std::size_t>(z) * static_cast<std::size_t>(size.y()) + static_cast<std::size_t>(y);
+        const std::size_t row = line * static_cast<std::size_t>(size.x());
         const std::uint32_t first = starts[row + static_cast<std::size_t>(low.x())];
         const std::uint32_t last = starts[row + static_cast<std::size_t>(high.x()) + 1];
         if (first < last) visit(first, last);
