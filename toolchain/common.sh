@@ -51,10 +51,24 @@ step() {
   fi
 }
 
-# Compiles through ccache when the machine has it, with paths relative to this folder so that clones share results.
+# Compiles through ccache when the machine has it: paths are relative to this folder, so that clones share results, and
+# a miss costs no extra run of the preprocessor.
 use_ccache() {
   if command -v ccache >/dev/null; then
     export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
-    export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+    export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_DEPEND=1
   fi
+}
+
+# build_preset PRESET OPTION...: configures and builds. A unit of several sources that does not compile says little about
+# them, because a name of one may have met a name of another in a way that units.awk does not see: what counts is
+# whether each source compiles by itself.
+build_preset() {
+  local preset=$1
+  shift
+  step "Configuring $preset" "configure-$preset" cmake --preset "$preset" || return 1
+  step "Building $preset" "build-$preset" cmake --build "build/$preset" --parallel "$cores" "$@" && return
+  grep -q '^GRASPD_UNITS:BOOL=ON' "build/$preset/CMakeCache.txt" || return 1
+  step "Configuring $preset, source by source" "configure-$preset" cmake --preset "$preset" -DGRASPD_UNITS=OFF || return 1
+  step "Building $preset, source by source" "build-$preset" cmake --build "build/$preset" --parallel "$cores" "$@"
 }
