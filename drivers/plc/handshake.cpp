@@ -78,13 +78,17 @@ void on_answer(HandshakeState& state, const HandshakeEvent& event, HandshakeActi
   actions.commit = true;
 }
 
+void fall_silent(HandshakeState& state) {
+  state.plc_alive = false;
+  state.was_silent = true;
+  state.result_valid = false;
+}
+
 /// What the passing of time alone brings about; looked at before every event.
 void on_time(HandshakeState& state, std::int64_t now_ns, const HandshakeOptions& options, HandshakeActions& actions) {
   if (options.heartbeat_timeout_ns > 0 && state.plc_alive &&
       now_ns - state.heartbeat_ns > options.heartbeat_timeout_ns) {
-    state.plc_alive = false;
-    state.was_silent = true;
-    state.result_valid = false;
+    fall_silent(state);
     actions.plc_silent = true;
   }
   if (options.request_timeout_ns > 0 && is_running(state) && now_ns - state.started_ns > options.request_timeout_ns) {
@@ -108,6 +112,19 @@ HandshakeEvent HandshakeEvent::of_heartbeat(std::uint16_t value) {
   HandshakeEvent event;
   event.kind = Kind::heartbeat;
   event.heartbeat = value;
+  return event;
+}
+
+HandshakeEvent HandshakeEvent::of_found(const HandshakeInputs& levels, std::uint16_t value) {
+  HandshakeEvent event = of_coils(levels);
+  event.kind = Kind::found;
+  event.heartbeat = value;
+  return event;
+}
+
+HandshakeEvent HandshakeEvent::of_lost() {
+  HandshakeEvent event;
+  event.kind = Kind::lost;
   return event;
 }
 
@@ -151,6 +168,13 @@ HandshakeActions step(HandshakeState& state, const HandshakeEvent& event, std::i
       break;
     case HandshakeEvent::Kind::heartbeat:
       on_heartbeat(state, event.heartbeat, now_ns, actions);
+      break;
+    case HandshakeEvent::Kind::found:
+      state.coils = event.coils;
+      state.heartbeat = event.heartbeat;
+      break;
+    case HandshakeEvent::Kind::lost:
+      fall_silent(state);
       break;
     case HandshakeEvent::Kind::capture_done:
       if (state.phase == HandshakePhase::capturing && event.sequence == state.sequence) {

@@ -62,16 +62,20 @@ struct HandshakeState {
 
 /// Something that happened: one of these a step.
 struct HandshakeEvent {
-  enum class Kind : std::uint8_t { coils, heartbeat, capture_done, answer, camera, model, tick };
+  enum class Kind : std::uint8_t { coils, heartbeat, found, lost, capture_done, answer, camera, model, tick };
   Kind kind = Kind::tick;
-  HandshakeInputs coils;             ///< coils: the levels now.
-  std::uint16_t heartbeat = 0;       ///< heartbeat: the register's value now.
+  HandshakeInputs coils;             ///< coils, found: the levels now.
+  std::uint16_t heartbeat = 0;       ///< heartbeat, found: the register's value now.
   std::uint16_t sequence = 0;        ///< capture_done, answer: the request that is meant.
   ResultCode code = ResultCode::ok;  ///< answer: what became of it.
   bool flag = false;                 ///< answer: carries a verified pick; camera, model: present.
 
   [[nodiscard]] static HandshakeEvent of_coils(const HandshakeInputs& levels);
   [[nodiscard]] static HandshakeEvent of_heartbeat(std::uint16_t value);
+  /// What stood in the PLC when it was looked at first: neither an edge nor a beat.
+  [[nodiscard]] static HandshakeEvent of_found(const HandshakeInputs& levels, std::uint16_t heartbeat);
+  /// The PLC cannot be reached any more: as silent as one can be.
+  [[nodiscard]] static HandshakeEvent of_lost();
   [[nodiscard]] static HandshakeEvent of_capture_done(std::uint16_t sequence);
   [[nodiscard]] static HandshakeEvent of_answer(std::uint16_t sequence, ResultCode code, bool has_verified_pick);
   [[nodiscard]] static HandshakeEvent of_camera(bool ok);
