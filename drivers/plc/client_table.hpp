@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,8 +13,10 @@ namespace graspd {
 struct ModbusClientSlot {
   static constexpr std::size_t capacity = 1024;
 
-  int descriptor = -1;  ///< -1: the slot is free.
-  std::int64_t heard_ns = 0;
+  int descriptor = -1;        ///< -1: the slot is free.
+  std::int64_t heard_ns = 0;  ///< When it sent something last, or got an answer.
+  std::int64_t paid_ns = 0;   ///< Up to when its requests have used up its rate.
+  bool was_slowed = false;
   std::size_t filled = 0;
   std::array<std::uint8_t, capacity> buffer{};
   std::array<char, 64> name{};  ///< Address and port, for the log.
@@ -30,6 +33,28 @@ struct Frame {
 
 /// Looks for one request at the front of `bytes` by the length field of the MBAP header.
 [[nodiscard]] Frame next_frame(std::span<const std::uint8_t> bytes);
+
+/// How many requests a client may send: over time one for each interval, and some at once.
+class RateLimit {
+ public:
+  /// `requests_per_second` of 0: no limit.
+  explicit RateLimit(int requests_per_second)
+      : interval_ns_(requests_per_second > 0 ? second / requests_per_second : 0),
+        at_once_ns_(std::max(second / 10, 10 * interval_ns_)) {}
+
+  /// 0 when the client may be served now, else the time until it may.
+  [[nodiscard]] std::int64_t wait_ns(const ModbusClientSlot& client, std::int64_t now_ns) const {
+    return interval_ns_ == 0 ? 0 : std::max<std::int64_t>(client.paid_ns - at_once_ns_ - now_ns, 0);
+  }
+  void count(ModbusClientSlot& client, std::int64_t now_ns) const {
+    client.paid_ns = std::max(client.paid_ns, now_ns) + interval_ns_;
+  }
+
+ private:
+  static constexpr std::int64_t second = 1'000'000'000;
+  std::int64_t interval_ns_;
+  std::int64_t at_once_ns_;
+};
 
 /// A fixed number of connections.
 class ClientTable {

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <thread>
 
+#include "drivers/plc/pick_list.hpp"
 #include "drivers/plc/register_map.hpp"
 
 namespace graspd {
@@ -51,7 +52,14 @@ Status ModbusClient::pulse(std::uint16_t address) {
 Status ModbusClient::write_request(const ClientRequest& request) {
   const std::array<std::uint16_t, 4> words{request.request_id, request.part, request.minimum_score,
                                            request.pose_convention};
-  return outcome(modbus_write_registers(context_.get(), request_register::request_id, words.size(), words.data()),
+  if (Status status =
+          outcome(modbus_write_registers(context_.get(), request_register::request_id, words.size(), words.data()),
+                  "cannot write the request");
+      !status.ok()) {
+    return status;
+  }
+  const std::array<std::uint16_t, 3> more{request.options, request.results_wanted, request.region};
+  return outcome(modbus_write_registers(context_.get(), request_register::options, more.size(), more.data()),
                  "cannot write the request");
 }
 
@@ -89,6 +97,14 @@ Result<ResultBlock> ModbusClient::read_block() {
   const int read = modbus_read_input_registers(context_.get(), 0, block::count, words.data());
   if (Status status = outcome(read, "cannot read the result block"); !status.ok()) return status;
   return decode(words, format_);
+}
+
+Result<ResultBlock> ModbusClient::read_list(NumberKind kind) {
+  std::array<std::uint16_t, pick_list::count> words{};
+  const int first = kind == NumberKind::scaled ? pick_list::scaled_first : pick_list::floats_first;
+  const int read = modbus_read_input_registers(context_.get(), first, pick_list::count, words.data());
+  if (Status status = outcome(read, "cannot read the list of picks"); !status.ok()) return status;
+  return decode_list(words, kind, format_);
 }
 
 Status ModbusClient::trigger(const ClientRequest& request) {

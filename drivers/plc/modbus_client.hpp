@@ -19,6 +19,9 @@ struct ClientRequest {
   std::uint16_t part = 0;
   std::uint16_t minimum_score = 0;  ///< In 1/10000; 0: the bank's own threshold.
   std::uint16_t pose_convention = 0;
+  std::uint16_t options = 0;  ///< Bits of request_option.
+  std::uint16_t results_wanted = 0;
+  std::uint16_t region = 0;
 };
 
 /// A PLC made of software: connects to a ModbusServer and goes through the handshake as the register
@@ -40,6 +43,9 @@ class ModbusClient {
   [[nodiscard]] Result<std::uint16_t> read_live(std::uint16_t address);
   /// The block, in one request.
   [[nodiscard]] Result<ResultBlock> read_block();
+
+  /// The list of picks with floats or with scaled integers, in one request.
+  [[nodiscard]] Result<ResultBlock> read_list(NumberKind kind);
 
   /// Writes the request and triggers.
   [[nodiscard]] Status trigger(const ClientRequest& request);

@@ -18,7 +18,7 @@
 namespace graspd {
 namespace {
 
-constexpr int poll_timeout_ms = 50;
+constexpr std::int64_t longest_wait_ns = 50'000'000;
 constexpr std::int64_t accept_pause_ns = 1'000'000'000;
 constexpr std::uint32_t log_lines = 20;
 constexpr std::int64_t log_window_ns = 10'000'000'000;
@@ -58,6 +58,7 @@ void ModbusServer::Loop::FreeMapping::operator()(_modbus_mapping_t* mapping) con
 ModbusServer::Loop::Loop(const ServerOptions& options, ClientFilter filter)
     : filter_(std::move(filter)),
       clients_(static_cast<std::size_t>(options.maximum_clients)),
+      rate_(options.maximum_rate),
       idle_ns_(nanoseconds(options.idle_time)),
       unfinished_ns_(nanoseconds(options.unfinished_time)),
       format_(options.format),
@@ -112,15 +113,20 @@ void ModbusServer::Loop::stop() {
 
 void ModbusServer::Loop::run() {
   while (!stopping_.load()) {
-    const std::span<pollfd> waiting = prepare_poll(monotonic_ns());
-    const int ready = poll(waiting.data(), waiting.size(), poll_timeout_ms);
-    if (ready < 0 && errno != EINTR) std::this_thread::sleep_for(std::chrono::milliseconds(poll_timeout_ms));
+    std::int64_t wait_ns = longest_wait_ns;
+    const std::span<pollfd> waiting = prepare_poll(monotonic_ns(), wait_ns);
+    const timespec time{0, static_cast<long>(wait_ns)};
+    const int ready = ppoll(waiting.data(), waiting.size(), &time, nullptr);
+    if (ready < 0 && errno != EINTR) std::this_thread::sleep_for(std::chrono::nanoseconds(longest_wait_ns));
     const std::int64_t now_ns = monotonic_ns();
     take_news(now_ns);
+    const std::span<ModbusClientSlot> slots = clients_.slots();
+    for (ModbusClientSlot& client : slots) {
+      if (client.is_open() && client.filled > 0) serve_buffered(client, now_ns);
+    }
     if (ready > 0) {
-      const std::span<ModbusClientSlot> slots = clients_.slots();
       for (std::size_t i = 0; i < slots.size(); ++i) {
-        if (waiting[i + 2].revents != 0) receive(slots[i], now_ns);
+        if (waiting[i + 2].revents != 0 && slots[i].is_open()) receive(slots[i], now_ns);
       }
       if (waiting[1].revents != 0) accept_client(now_ns);
     }
@@ -131,11 +137,16 @@ void ModbusServer::Loop::run() {
   }
 }
 
-std::span<pollfd> ModbusServer::Loop::prepare_poll(std::int64_t now_ns) {
+/// A client that has used up its rate is not listened to for a while: its requests wait in the network.
+std::span<pollfd> ModbusServer::Loop::prepare_poll(std::int64_t now_ns, std::int64_t& wait_ns) {
   waiting_[0] = {mailbox_.wake_descriptor(), POLLIN, 0};
   waiting_[1] = {now_ns < accept_again_ns_ ? -1 : listener_, POLLIN, 0};
   const std::span<ModbusClientSlot> slots = clients_.slots();
-  for (std::size_t i = 0; i < slots.size(); ++i) waiting_[i + 2] = {slots[i].descriptor, POLLIN, 0};
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const std::int64_t slowed_ns = slots[i].is_open() ? rate_.wait_ns(slots[i], now_ns) : 0;
+    if (slowed_ns > 0) wait_ns = std::min(wait_ns, slowed_ns);
+    waiting_[i + 2] = {slowed_ns > 0 ? -1 : slots[i].descriptor, POLLIN, 0};
+  }
   return std::span(waiting_).first(slots.size() + 2);
 }
 
@@ -191,6 +202,7 @@ void ModbusServer::Loop::receive(ModbusClientSlot& client, std::int64_t now_ns) 
   // More than once, so that a client which sent something and hung up is gone before the next is let in.
   for (int i = 0; i < receives_at_once && client.is_open(); ++i) {
     const std::span<std::uint8_t> room = std::span(client.buffer).subspan(client.filled);
+    if (room.empty()) return;
     const ssize_t received = recv(client.descriptor, room.data(), room.size(), 0);
     if (received < 0 && (errno == EAGAIN || errno == EINTR)) return;
     if (received <= 0) {
@@ -210,6 +222,14 @@ void ModbusServer::Loop::serve_buffered(ModbusClientSlot& client, std::int64_t n
     const std::span<const std::uint8_t> bytes = std::span(client.buffer).first(client.filled).subspan(used);
     const Frame frame = next_frame(bytes);
     if (frame.state == FrameState::incomplete) break;
+    if (rate_.wait_ns(client, now_ns) > 0) {
+      if (!client.was_slowed && may_log(now_ns)) {
+        log_event(LogLevel::warning, "W132", "client asks more often than it may, and is slowed down peer=%s",
+                  client.name.data());
+      }
+      client.was_slowed = true;
+      break;
+    }
     if (frame.state == FrameState::not_modbus) {
       if (may_log(now_ns)) {
         log_event(LogLevel::warning, "W115", "what the client sends is not Modbus TCP: closed peer=%s",
@@ -226,6 +246,8 @@ void ModbusServer::Loop::serve_buffered(ModbusClientSlot& client, std::int64_t n
       return;
     }
     used += frame.size;
+    rate_.count(client, now_ns);
+    client.heard_ns = now_ns;
   }
   std::copy(client.buffer.begin() + static_cast<std::ptrdiff_t>(used),
             client.buffer.begin() + static_cast<std::ptrdiff_t>(client.filled), client.buffer.begin());
@@ -255,6 +277,7 @@ bool ModbusServer::Loop::serve(ModbusClientSlot& client, std::span<const std::ui
 void ModbusServer::Loop::drop_unfinished(std::int64_t now_ns) {
   for (ModbusClientSlot& client : clients_.slots()) {
     if (!client.is_open() || client.filled == 0 || now_ns - client.heard_ns < unfinished_ns_) continue;
+    if (next_frame(std::span(client.buffer).first(client.filled)).state == FrameState::complete) continue;
     if (may_log(now_ns)) {
       log_event(LogLevel::warning, "W120", "client left a request unfinished: closed peer=%s", client.name.data());
     }

@@ -53,7 +53,7 @@ class ModbusServer::Loop {
   };
 
   void run();
-  [[nodiscard]] std::span<pollfd> prepare_poll(std::int64_t now_ns);
+  [[nodiscard]] std::span<pollfd> prepare_poll(std::int64_t now_ns, std::int64_t& wait_ns);
   void take_news(std::int64_t now_ns);
   void accept_client(std::int64_t now_ns);
   [[nodiscard]] ModbusClientSlot* make_room(std::int64_t now_ns);
@@ -65,6 +65,7 @@ class ModbusServer::Loop {
 
   ClientFilter filter_;
   ClientTable clients_;
+  RateLimit rate_;
   std::int64_t idle_ns_;
   std::int64_t unfinished_ns_;
   BlockFormat format_;

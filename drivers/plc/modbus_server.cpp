@@ -12,6 +12,9 @@ Result<std::unique_ptr<ModbusServer>> ModbusServer::start(const ServerOptions& o
     return Status::format(StatusCode::bad_configuration, "Modbus server: the number of clients must be 1 to %d, not %d",
                           most_clients, options.maximum_clients);
   }
+  if (options.maximum_rate < 0) {
+    return Status(StatusCode::bad_configuration, "Modbus server: the rate of requests must not be negative");
+  }
   Result<ClientFilter> filter = ClientFilter::make(options.allowed_clients);
   if (!filter.ok()) return filter.status();
   auto loop = std::make_unique<Loop>(options, std::move(filter).value());

@@ -17,6 +17,8 @@ struct ServerOptions {
   /// Who may connect, as addresses or networks ("192.168.1.0/24"); empty: everybody.
   std::vector<std::string> allowed_clients;
   int maximum_clients = 8;  ///< 1 to 64.
+  /// Requests a second that one client gets answered; more of them wait. 0: no limit.
+  int maximum_rate = 1000;
   /// A client silent for so long gives way when the table is full.
   std::chrono::milliseconds idle_time{5000};
   /// A client that leaves a request unfinished for so long is disconnected.

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstdint>
 
-#include "drivers/plc/orientation.hpp"
+#include "core/geometry/rigid_transform.hpp"
 #include "drivers/plc/result_block.hpp"
 
 namespace graspd {
@@ -13,13 +13,28 @@ enum class RequestKind : std::uint8_t {
   next,     ///< The next pick of the last capture; code nothing_left when there is none.
 };
 
+/// An upright box in which alone parts are looked for.
+struct RequestBox {
+  RigidTransform reference_from_box;  ///< The reference is the robot's frame if it is calibrated, else the camera's.
+  Vector3 half_size = Vector3::Zero();
+};
+
 /// What the PLC asked for: a copy of the request registers as they stood at the rising edge.
 struct PlcRequest {
   RequestKind kind = RequestKind::capture;
-  std::uint16_t sequence = 0;    ///< Names this request to every call below; never 0.
-  std::uint16_t request_id = 0;  ///< The PLC's own number, to be echoed.
-  std::uint16_t part = 0;        ///< 0: any part that is loaded.
-  float minimum_score = -1.0F;   ///< In [0, 1]; negative: every bank's own threshold.
+  std::uint16_t sequence = 0;        ///< Names this request to every call below; never 0.
+  std::uint16_t request_id = 0;      ///< The PLC's own number, to be echoed.
+  std::uint16_t part = 0;            ///< 0: any part that is loaded.
+  float minimum_score = -1.0F;       ///< In [0, 1]; negative: every bank's own threshold.
+  std::uint16_t results_wanted = 1;  ///< Picks in one answer, 1 to pick_list::entries.
+  bool dry_run = false;              ///< Answer with code dry_run instead of ok, and count nothing as picked.
+  bool save_snapshot = false;        ///< Keep the frame for the vision engineer.
+  bool avoid_last_place = false;     ///< The last pick failed: do not go there again for a while.
+  std::uint16_t region = 0;          ///< Number of the configured region to look in; request_region::box: `box`.
+  RequestBox box;                    ///< As in the registers, finite or not.
+  bool has_flange_pose = false;      ///< For a camera on the flange.
+  RigidTransform robot_from_flange;  ///< At the exposure, as in the registers: finite and a rotation, or not.
+  bool well_formed = true;       ///< False when a register holds what has no meaning: to be answered with bad_request.
   std::int64_t received_ns = 0;  ///< When the edge was seen (monotonic clock).
 };
 

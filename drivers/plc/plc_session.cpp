@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "drivers/plc/pick_list.hpp"
+#include "drivers/plc/request_words.hpp"
+
 namespace graspd {
 namespace {
 
@@ -33,23 +36,28 @@ PlcSession::PlcSession(const RegisterTables& tables, const BlockFormat& format, 
 bool PlcSession::on_written(std::int64_t now_ns, PlcRequest& request) {
   const std::span<const std::uint16_t> registers = tables_.holding_registers;
   take(HandshakeEvent::of_heartbeat(registers[request_register::plc_heartbeat]), now_ns);
-  const HandshakeInputs levels{tables_.coils[coil::trigger] != 0, tables_.coils[coil::acknowledge] != 0,
-                               tables_.coils[coil::reset] != 0, tables_.coils[coil::next] != 0};
-  const HandshakeActions actions = take(HandshakeEvent::of_coils(levels), now_ns);
+  const HandshakeActions actions = take(HandshakeEvent::of_coils(levels()), now_ns);
   publish(now_ns);
   if (!actions.start) return false;
 
-  request_id_ = registers[request_register::request_id];
-  const std::uint16_t convention = registers[request_register::pose_convention];
-  request_convention_ = convention == 0 ? format_.convention : static_cast<PoseConvention>(convention);
-  const std::uint16_t score = registers[request_register::minimum_score];
-  request = {.kind = actions.kind,
-             .sequence = state_.sequence,
-             .request_id = request_id_,
-             .part = registers[request_register::part],
-             .minimum_score = score == 0 ? -1.0F : static_cast<float>(score) / 1e4F,
-             .received_ns = now_ns};
+  request = read_request(registers, format_);
+  request.kind = actions.kind;
+  request.sequence = state_.sequence;
+  request.received_ns = now_ns;
+  request_id_ = request.request_id;
+  request_convention_ = request_convention(registers, format_);
   return true;
+}
+
+void PlcSession::on_found(std::int64_t now_ns) {
+  const std::uint16_t heartbeat = tables_.holding_registers[request_register::plc_heartbeat];
+  take(HandshakeEvent::of_found(levels(), heartbeat), now_ns);
+  publish(now_ns);
+}
+
+void PlcSession::on_lost(std::int64_t now_ns) {
+  take(HandshakeEvent::of_lost(), now_ns);
+  publish(now_ns);
 }
 
 void PlcSession::on_capture_done(std::uint16_t sequence, std::int64_t now_ns) {
@@ -59,12 +67,15 @@ void PlcSession::on_capture_done(std::uint16_t sequence, std::int64_t now_ns) {
 
 void PlcSession::on_answer(const ResultBlock& result, std::int64_t now_ns) {
   ResultBlock answer = result;
-  if (answer.code == ResultCode::ok && !has_pick(answer)) {
+  const bool claims_poses = answer.code == ResultCode::ok || answer.code == ResultCode::dry_run;
+  if (claims_poses && !has_poses(answer)) {
     log_event(LogLevel::error, "E126", "answer without a verified, finite pick sequence=%u", unsigned{answer.sequence});
     answer.code = ResultCode::internal;
   }
   const HandshakeActions actions =
       take(HandshakeEvent::of_answer(answer.sequence, answer.code, has_pick(answer)), now_ns);
+  // A PLC that reads the code alone must not be led to a pick either.
+  if (actions.commit && has_pick(answer) && !state_.result_valid) answer.code = ResultCode::plc_silent;
   if (actions.commit) commit(answer);
   if (actions.drop) {
     log_event(LogLevel::notice, "N124", "answer dropped: nobody waits for it any more sequence=%u result=%.*s",
@@ -87,6 +98,11 @@ std::uint16_t PlcSession::wanted() const {
   return running ? state_.sequence : std::uint16_t{0};
 }
 
+HandshakeInputs PlcSession::levels() const {
+  const std::span<const std::uint8_t> coils = tables_.coils;
+  return {coils[coil::trigger] != 0, coils[coil::acknowledge] != 0, coils[coil::reset] != 0, coils[coil::next] != 0};
+}
+
 HandshakeActions PlcSession::take(const HandshakeEvent& event, std::int64_t now_ns) {
   const HandshakeActions actions = step(state_, event, now_ns, options_);
   if (actions.timed_out) {
@@ -103,8 +119,17 @@ HandshakeActions PlcSession::take(const HandshakeEvent& event, std::int64_t now_
 void PlcSession::commit(const ResultBlock& result) {
   BlockFormat format = format_;
   format.convention = request_convention_;
-  encode(result, format, tables_.input_registers);
-  std::ranges::copy(tables_.input_registers.first(block::count), tables_.holding_registers.begin() + holding_mirror);
+  const std::span<std::uint16_t> registers = tables_.input_registers;
+  encode(result, format, registers);
+  encode_list(result, NumberKind::floating, format, registers.subspan(pick_list::floats_first));
+  encode_list(result, NumberKind::scaled, format, registers.subspan(pick_list::scaled_first));
+  const auto mirror = [&](std::size_t first, std::size_t count) {
+    std::ranges::copy(registers.subspan(first, count),
+                      tables_.holding_registers.subspan(holding_mirror + first).begin());
+  };
+  mirror(0, block::count);
+  mirror(pick_list::floats_first, pick_list::count);
+  mirror(pick_list::scaled_first, pick_list::count);
 }
 
 void PlcSession::publish(std::int64_t now_ns) {

@@ -26,6 +26,10 @@ class PlcSession {
 
   /// The PLC may have written. True when `request` is to be handed to the worker.
   [[nodiscard]] bool on_written(std::int64_t now_ns, PlcRequest& request);
+  /// The PLC is looked at for the first time: what stands in its registers asks for nothing.
+  void on_found(std::int64_t now_ns);
+  /// The PLC cannot be reached any more: nothing that it was told is valid now.
+  void on_lost(std::int64_t now_ns);
   /// The worker took the frame of the request `sequence`.
   void on_capture_done(std::uint16_t sequence, std::int64_t now_ns);
   /// The worker answered. An answer that nobody waits for any more is dropped.
@@ -38,6 +42,7 @@ class PlcSession {
   [[nodiscard]] std::uint16_t wanted() const;
 
  private:
+  [[nodiscard]] HandshakeInputs levels() const;
   HandshakeActions take(const HandshakeEvent& event, std::int64_t now_ns);
   void commit(const ResultBlock& result);
   void publish(std::int64_t now_ns);

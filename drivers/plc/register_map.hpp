@@ -1,29 +1,13 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 
 namespace graspd {
 
 /// The addresses that a PLC sees (protocol addresses, from 0). configs/register-map.md says what each
 /// means; a test holds that page against these tables.
 inline constexpr std::uint16_t register_map_version = 1;
-
-/// A coil or a discrete input.
-struct BitEntry {
-  std::uint16_t address;
-  std::string_view name;
-};
-
-/// A register, or the first of several: `words` registers from `address`.
-struct RegisterEntry {
-  std::uint16_t address;
-  std::uint16_t words;
-  std::string_view name;
-  std::string_view type;
-};
 
 /// Coils, written by the PLC; only their rising edges count.
 namespace coil {
@@ -33,12 +17,6 @@ inline constexpr std::uint16_t reset = 2;
 inline constexpr std::uint16_t next = 3;
 inline constexpr std::uint16_t count = 4;
 }  // namespace coil
-inline constexpr std::array<BitEntry, coil::count> coil_table{{
-    {coil::trigger, "trigger"},
-    {coil::acknowledge, "acknowledge"},
-    {coil::reset, "reset"},
-    {coil::next, "next"},
-}};
 
 /// Discrete inputs, read by the PLC.
 namespace discrete_input {
@@ -53,17 +31,6 @@ inline constexpr std::uint16_t model_loaded = 7;
 inline constexpr std::uint16_t plc_alive = 8;
 inline constexpr std::uint16_t count = 9;
 }  // namespace discrete_input
-inline constexpr std::array<BitEntry, discrete_input::count> discrete_input_table{{
-    {discrete_input::ready, "ready"},
-    {discrete_input::busy, "busy"},
-    {discrete_input::capture_done, "capture_done"},
-    {discrete_input::done, "done"},
-    {discrete_input::error, "error"},
-    {discrete_input::result_valid, "result_valid"},
-    {discrete_input::camera_ok, "camera_ok"},
-    {discrete_input::model_loaded, "model_loaded"},
-    {discrete_input::plc_alive, "plc_alive"},
-}};
 
 /// Holding registers that the PLC writes. The rising edge of `trigger` takes a copy of them.
 namespace request_register {
@@ -72,15 +39,29 @@ inline constexpr std::uint16_t part = 1;
 inline constexpr std::uint16_t minimum_score = 2;
 inline constexpr std::uint16_t pose_convention = 3;
 inline constexpr std::uint16_t plc_heartbeat = 4;
-inline constexpr std::uint16_t count = 5;
+inline constexpr std::uint16_t options = 5;
+inline constexpr std::uint16_t results_wanted = 6;
+inline constexpr std::uint16_t region = 7;
+inline constexpr std::uint16_t region_box = 8;
+inline constexpr std::uint16_t flange_pose = 22;
+inline constexpr std::uint16_t count = 36;
 }  // namespace request_register
-inline constexpr std::array<RegisterEntry, request_register::count> request_table{{
-    {request_register::request_id, 1, "request_id", "uint16"},
-    {request_register::part, 1, "part", "uint16"},
-    {request_register::minimum_score, 1, "minimum_score", "uint16"},
-    {request_register::pose_convention, 1, "pose_convention", "uint16"},
-    {request_register::plc_heartbeat, 1, "plc_heartbeat", "uint16"},
-}};
+
+/// The bits of the request register `options`.
+namespace request_option {
+inline constexpr std::uint16_t dry_run = 1U << 0U;
+inline constexpr std::uint16_t save_snapshot = 1U << 1U;
+inline constexpr std::uint16_t avoid_last_place = 1U << 2U;
+inline constexpr std::uint16_t flange_pose_given = 1U << 3U;
+inline constexpr std::uint16_t scaled_numbers = 1U << 4U;
+inline constexpr std::uint16_t all = 0x1F;
+}  // namespace request_option
+
+/// Values of the request register `region` beside 0, which means none.
+namespace request_region {
+inline constexpr std::uint16_t most_numbers = 16;  ///< 1 to 16: regions of the configuration.
+inline constexpr std::uint16_t box = 100;          ///< The box in the request registers.
+}  // namespace request_region
 
 /// Offsets in the result block, which is committed and read as one.
 namespace block {
@@ -130,46 +111,37 @@ inline constexpr std::int32_t test_int_value = 123456;
 }  // namespace block
 static_assert(block::count <= 125, "the block must be readable in one request");
 
-inline constexpr std::array<RegisterEntry, 38> block_table{{
-    {block::map_version, 1, "map_version", "uint16"},
-    {block::sequence_first, 1, "sequence_first", "uint16"},
-    {block::request_id, 1, "request_id", "uint16"},
-    {block::result_code, 1, "result_code", "uint16"},
-    {block::reason, 1, "reason", "uint16"},
-    {block::flags, 1, "flags", "uint16"},
-    {block::part, 1, "part", "uint16"},
-    {block::view, 1, "view", "uint16"},
-    {block::grasp, 1, "grasp", "uint16"},
-    {block::score, 1, "score", "uint16"},
-    {block::instances_found, 1, "instances_found", "uint16"},
-    {block::pickable, 1, "pickable", "uint16"},
-    {block::remaining, 1, "remaining", "uint16"},
-    {block::result_index, 1, "result_index", "uint16"},
-    {block::pose_convention, 1, "pose_convention", "uint16"},
-    {block::pose_frame, 1, "pose_frame", "uint16"},
-    {block::frame_age, 1, "frame_age", "uint16"},
-    {block::time_total, 1, "time_total", "uint16"},
-    {block::time_capture, 1, "time_capture", "uint16"},
-    {block::time_preprocess, 1, "time_preprocess", "uint16"},
-    {block::time_match, 1, "time_match", "uint16"},
-    {block::time_cluster, 1, "time_cluster", "uint16"},
-    {block::time_refine, 1, "time_refine", "uint16"},
-    {block::time_verify, 1, "time_verify", "uint16"},
-    {block::time_grasp, 1, "time_grasp", "uint16"},
-    {block::test_word, 1, "test_word", "uint16"},
-    {block::test_float, 2, "test_float", "float32"},
-    {block::test_int, 2, "test_int", "int32"},
-    {block::opening, 2, "opening", "float32"},
-    {block::opening_scaled, 2, "opening_scaled", "int32"},
-    {block::pick_pose, 14, "pick_pose", "float32[7]"},
-    {block::pick_pose_scaled, 14, "pick_pose_scaled", "int32[7]"},
-    {block::approach_pose, 14, "approach_pose", "float32[7]"},
-    {block::approach_pose_scaled, 14, "approach_pose_scaled", "int32[7]"},
-    {block::part_pose, 14, "part_pose", "float32[7]"},
-    {block::part_pose_scaled, 14, "part_pose_scaled", "int32[7]"},
-    {block::checksum, 1, "checksum", "uint16"},
-    {block::sequence_last, 1, "sequence_last", "uint16"},
-}};
+/// Offsets in a list of picks. There are two, of the same form: one with float32, one with scaled int32.
+namespace pick_list {
+inline constexpr std::uint16_t floats_first = 300;
+inline constexpr std::uint16_t scaled_first = 500;
+
+inline constexpr std::uint16_t map_version = 0;
+inline constexpr std::uint16_t sequence_first = 1;
+inline constexpr std::uint16_t request_id = 2;
+inline constexpr std::uint16_t result_code = 3;
+inline constexpr std::uint16_t picks = 4;
+inline constexpr std::uint16_t remaining = 5;
+inline constexpr std::uint16_t pose_convention = 6;
+inline constexpr std::uint16_t pose_frame = 7;
+inline constexpr std::uint16_t approach_distance = 8;
+inline constexpr std::uint16_t first_entry = 9;
+inline constexpr std::uint16_t entry_size = 19;
+inline constexpr std::uint16_t entries = 6;
+inline constexpr std::uint16_t checksum = first_entry + entries * entry_size;
+inline constexpr std::uint16_t sequence_last = checksum + 1;
+inline constexpr std::uint16_t count = sequence_last + 1;
+}  // namespace pick_list
+static_assert(pick_list::count <= 125, "a list must be readable in one request");
+
+/// Offsets in an entry of a list.
+namespace pick_entry {
+inline constexpr std::uint16_t part = 0;
+inline constexpr std::uint16_t grasp = 1;
+inline constexpr std::uint16_t score = 2;
+inline constexpr std::uint16_t opening = 3;
+inline constexpr std::uint16_t pick_pose = 5;
+}  // namespace pick_entry
 
 /// Input registers that change at any time, outside the block.
 namespace live_register {
@@ -184,22 +156,12 @@ inline constexpr std::uint16_t last_refusal = 206;
 inline constexpr std::uint16_t clients = 207;
 inline constexpr std::uint16_t count = 8;
 }  // namespace live_register
-inline constexpr std::array<RegisterEntry, live_register::count> live_table{{
-    {live_register::heartbeat, 1, "heartbeat", "uint16"},
-    {live_register::phase, 1, "phase", "uint16"},
-    {live_register::status_word, 1, "status_word", "uint16"},
-    {live_register::sequence, 1, "sequence", "uint16"},
-    {live_register::triggers_accepted, 1, "triggers_accepted", "uint16"},
-    {live_register::triggers_refused, 1, "triggers_refused", "uint16"},
-    {live_register::last_refusal, 1, "last_refusal", "uint16"},
-    {live_register::clients, 1, "clients", "uint16"},
-}};
 
 /// Input registers lie at their own addresses; a PLC that reads holding registers only finds the same
 /// contents this much higher among them.
 inline constexpr std::uint16_t holding_mirror = 1000;
 
-inline constexpr std::uint16_t input_register_space = live_register::first + live_register::count;
+inline constexpr std::uint16_t input_register_space = pick_list::scaled_first + pick_list::count;
 inline constexpr std::uint16_t holding_register_space = holding_mirror + input_register_space;
 
 }  // namespace graspd

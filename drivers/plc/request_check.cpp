@@ -20,11 +20,18 @@ struct AddressRange {
 
 constexpr std::array<AddressRange, 1> coil_ranges{{{0, coil::count}}};
 constexpr std::array<AddressRange, 1> discrete_ranges{{{0, discrete_input::count}}};
-constexpr std::array<AddressRange, 2> input_ranges{{{0, block::count}, {live_register::first, live_register::count}}};
-constexpr std::array<AddressRange, 3> holding_ranges{{
+constexpr std::array<AddressRange, 4> input_ranges{{
+    {0, block::count},
+    {live_register::first, live_register::count},
+    {pick_list::floats_first, pick_list::count},
+    {pick_list::scaled_first, pick_list::count},
+}};
+constexpr std::array<AddressRange, 5> holding_ranges{{
     {0, request_register::count},
     {holding_mirror, block::count},
     {holding_mirror + live_register::first, live_register::count},
+    {holding_mirror + pick_list::floats_first, pick_list::count},
+    {holding_mirror + pick_list::scaled_first, pick_list::count},
 }};
 constexpr std::array<AddressRange, 1> writable_ranges{{{0, request_register::count}}};
 
@@ -35,12 +42,6 @@ constexpr std::array<AddressRange, 1> writable_ranges{{{0, request_register::cou
   return false;
 }
 
-[[nodiscard]] bool is_allowed(std::size_t address, unsigned value) {
-  if (address == request_register::minimum_score) return value <= 10000;
-  if (address == request_register::pose_convention) return value <= pose_convention_count;
-  return true;
-}
-
 /// Reads big-endian words out of a request.
 class Fields {
  public:
@@ -49,7 +50,7 @@ class Fields {
   [[nodiscard]] unsigned word(std::size_t offset) const { return byte(offset) << 8U | byte(offset + 1); }
   [[nodiscard]] bool values_allowed(std::size_t offset, std::size_t address, std::size_t count) const {
     for (std::size_t i = 0; i < count; ++i) {
-      if (!is_allowed(address + i, word(offset + 2 * i))) return false;
+      if (!is_request_value(address + i, word(offset + 2 * i))) return false;
     }
     return true;
   }
@@ -79,7 +80,7 @@ class Fields {
   if (request.size() != 5) return RequestVerdict::illegal_value;
   const Fields fields(request);
   if (!contains(writable_ranges, fields.word(1), 1)) return RequestVerdict::illegal_address;
-  return is_allowed(fields.word(1), fields.word(3)) ? RequestVerdict::accept : RequestVerdict::illegal_value;
+  return is_request_value(fields.word(1), fields.word(3)) ? RequestVerdict::accept : RequestVerdict::illegal_value;
 }
 
 [[nodiscard]] RequestVerdict check_write_coils(std::span<const std::uint8_t> request) {
@@ -122,6 +123,17 @@ class Fields {
 }
 
 }  // namespace
+
+bool is_request_value(std::size_t address, unsigned value) {
+  if (address == request_register::minimum_score) return value <= 10000;
+  if (address == request_register::pose_convention) return value <= pose_convention_count;
+  if (address == request_register::options) return value <= request_option::all;
+  if (address == request_register::results_wanted) return value <= pick_list::entries;
+  if (address == request_register::region) {
+    return value <= request_region::most_numbers || value == request_region::box;
+  }
+  return true;
+}
 
 RequestVerdict check_request(std::span<const std::uint8_t> request) {
   if (request.empty()) return RequestVerdict::illegal_function;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -12,6 +13,9 @@ enum class RequestVerdict : std::uint8_t {
   illegal_address = 2,
   illegal_value = 3,
 };
+
+/// Whether the request register at `address` may hold `value`.
+[[nodiscard]] bool is_request_value(std::size_t address, unsigned value);
 
 /// Judges a request, from its function code on (without the MBAP header), against the register map:
 /// whether its length fits its function, whether every address exists and may be written, and whether

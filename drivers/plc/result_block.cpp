@@ -2,76 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace graspd {
 namespace {
 
-constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
-constexpr double micrometres_per_metre = 1e6;
-
-/// A pose as the seven numbers of the registers: position, then orientation.
-using PoseValues = std::array<double, 7>;
-
-struct PoseScale {
-  double length;
-  double angle;
-};
-
-[[nodiscard]] PoseScale float_scale(const BlockFormat& format) {
-  const bool is_angle = format.convention != PoseConvention::quaternion;
-  return {format.length == PositionUnit::millimetre ? 1e3 : 1.0,
-          is_angle && format.angle == AngleUnit::degree ? degrees_per_radian : 1.0};
-}
-
-[[nodiscard]] PoseScale integer_scale(const BlockFormat& format) {
-  const bool is_angle = format.convention != PoseConvention::quaternion;
-  return {micrometres_per_metre, is_angle && format.angle == AngleUnit::degree ? 1e3 * degrees_per_radian : 1e6};
-}
-
-[[nodiscard]] PoseValues pose_values(const RigidTransform& pose, PoseConvention convention) {
-  const std::array<double, 4> orientation = orientation_values(pose.rotation, convention);
-  const Eigen::Vector3d position = pose.translation.cast<double>();
-  return {position.x(), position.y(), position.z(), orientation[0], orientation[1], orientation[2], orientation[3]};
-}
-
 [[nodiscard]] std::uint16_t rounded_word(double value) {
   if (!(value > 0)) return 0;
   return static_cast<std::uint16_t>(std::lround(std::min(value, 65535.0)));
-}
-
-[[nodiscard]] std::int32_t rounded_int(double value) {
-  if (std::isnan(value)) return 0;
-  constexpr double limit = std::numeric_limits<std::int32_t>::max();
-  return static_cast<std::int32_t>(std::llround(std::clamp(value, -limit, limit)));
-}
-
-void put_pose(std::span<std::uint16_t> floats, std::span<std::uint16_t> integers, const RigidTransform& pose,
-              const BlockFormat& format) {
-  const PoseValues values = pose_values(pose, format.convention);
-  const PoseScale as_float = float_scale(format);
-  const PoseScale as_integer = integer_scale(format);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const bool is_position = i < 3;
-    put_float(floats.subspan(2 * i), static_cast<float>(values[i] * (is_position ? as_float.length : as_float.angle)),
-              format.word_order);
-    put_int32(integers.subspan(2 * i), rounded_int(values[i] * (is_position ? as_integer.length : as_integer.angle)),
-              format.word_order);
-  }
-}
-
-[[nodiscard]] RigidTransform get_pose(std::span<const std::uint16_t> floats, const BlockFormat& format) {
-  const PoseScale scale = float_scale(format);
-  PoseValues values{};
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] =
-        static_cast<double>(get_float(floats.subspan(2 * i), format.word_order)) / (i < 3 ? scale.length : scale.angle);
-  }
-  RigidTransform pose;
-  pose.translation = Eigen::Vector3d(values[0], values[1], values[2]).cast<float>();
-  pose.rotation = rotation_from_values({values[3], values[4], values[5], values[6]}, format.convention);
-  return pose;
 }
 
 [[nodiscard]] bool is_finite(const RigidTransform& pose) {
@@ -79,12 +16,15 @@ void put_pose(std::span<std::uint16_t> floats, std::span<std::uint16_t> integers
 }
 
 void put_pick(std::span<std::uint16_t> words, const ResultBlock& result, const BlockFormat& format) {
-  const double opening = static_cast<double>(result.opening);
-  put_float(words.subspan(block::opening), static_cast<float>(opening * float_scale(format).length), format.word_order);
-  put_int32(words.subspan(block::opening_scaled), rounded_int(opening * micrometres_per_metre), format.word_order);
-  put_pose(words.subspan(block::pick_pose), words.subspan(block::pick_pose_scaled), result.pick, format);
-  put_pose(words.subspan(block::approach_pose), words.subspan(block::approach_pose_scaled), result.approach, format);
-  put_pose(words.subspan(block::part_pose), words.subspan(block::part_pose_scaled), result.part_pose, format);
+  const auto put = [&](NumberKind kind, std::size_t opening, std::size_t pick, std::size_t approach, std::size_t part) {
+    put_length(words.subspan(opening), static_cast<double>(result.opening), kind, format);
+    put_pose(words.subspan(pick), result.pick, kind, format);
+    put_pose(words.subspan(approach), result.approach, kind, format);
+    put_pose(words.subspan(part), result.part_pose, kind, format);
+  };
+  put(NumberKind::floating, block::opening, block::pick_pose, block::approach_pose, block::part_pose);
+  put(NumberKind::scaled, block::opening_scaled, block::pick_pose_scaled, block::approach_pose_scaled,
+      block::part_pose_scaled);
 }
 
 [[nodiscard]] Status check(std::span<const std::uint16_t> words, WordOrder order) {
@@ -117,10 +57,13 @@ void put_pick(std::span<std::uint16_t> words, const ResultBlock& result, const B
 
 }  // namespace
 
-bool has_pick(const ResultBlock& result) {
-  return result.verified && result.code == ResultCode::ok && is_finite(result.pick) && is_finite(result.approach) &&
-         is_finite(result.part_pose) && std::isfinite(result.opening);
+bool has_poses(const ResultBlock& result) {
+  return result.verified && (result.code == ResultCode::ok || result.code == ResultCode::dry_run) &&
+         is_finite(result.pick) && is_finite(result.approach) && is_finite(result.part_pose) &&
+         std::isfinite(result.opening);
 }
+
+bool has_pick(const ResultBlock& result) { return has_poses(result) && result.code == ResultCode::ok; }
 
 std::uint16_t block_checksum(std::span<const std::uint16_t> words) {
   unsigned crc = 0xFFFF;
@@ -160,7 +103,7 @@ void encode(const ResultBlock& result, const BlockFormat& format, std::span<std:
   words[block::test_word] = block::test_word_value;
   put_float(words.subspan(block::test_float), block::test_float_value, format.word_order);
   put_int32(words.subspan(block::test_int), block::test_int_value, format.word_order);
-  if (has_pick(result)) put_pick(words, result, format);
+  if (has_poses(result)) put_pick(words, result, format);
   words[block::checksum] = block_checksum(words.first(block::checksum));
   words[block::sequence_last] = result.sequence;
 }
@@ -188,13 +131,13 @@ Result<ResultBlock> decode(std::span<const std::uint16_t> words, const BlockForm
   for (std::size_t i = 0; i < block_stage_count; ++i) {
     result.stage_time[i] = static_cast<float>(words[block::time_total + i]) / 1e3F;
   }
-  result.verified = result.code == ResultCode::ok;
+  result.verified = result.code == ResultCode::ok || result.code == ResultCode::dry_run;
   if (result.verified) {
-    result.opening = static_cast<float>(static_cast<double>(get_float(words.subspan(block::opening), own.word_order)) /
-                                        float_scale(own).length);
-    result.pick = get_pose(words.subspan(block::pick_pose), own);
-    result.approach = get_pose(words.subspan(block::approach_pose), own);
-    result.part_pose = get_pose(words.subspan(block::part_pose), own);
+    constexpr NumberKind kind = NumberKind::floating;
+    result.opening = static_cast<float>(get_length(words.subspan(block::opening), kind, own));
+    result.pick = get_pose(words.subspan(block::pick_pose), kind, own);
+    result.approach = get_pose(words.subspan(block::approach_pose), kind, own);
+    result.part_pose = get_pose(words.subspan(block::part_pose), kind, own);
   }
   return result;
 }

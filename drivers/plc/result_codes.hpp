@@ -29,6 +29,7 @@ enum class ResultCode : std::uint16_t {
   no_match = 21,      ///< Something lies there, but no instance of the part was recognised.
   not_pickable = 22,  ///< Instances were found; none can be gripped.
   nothing_left = 23,  ///< `next`, but the last capture holds no further pick.
+  dry_run = 24,       ///< There is a pick, but it was asked for without meaning to go there.
   busy = 30,
   not_acknowledged = 31,
   plc_silent = 32,
@@ -40,7 +41,7 @@ struct ResultCodeEntry {
   ResultCode code;
   std::string_view name;
 };
-inline constexpr std::array<ResultCodeEntry, 20> result_code_table{{
+inline constexpr std::array<ResultCodeEntry, 21> result_code_table{{
     {ResultCode::ok, "ok"},
     {ResultCode::internal, "internal"},
     {ResultCode::bad_configuration, "bad_configuration"},
@@ -56,6 +57,7 @@ inline constexpr std::array<ResultCodeEntry, 20> result_code_table{{
     {ResultCode::no_match, "no_match"},
     {ResultCode::not_pickable, "not_pickable"},
     {ResultCode::nothing_left, "nothing_left"},
+    {ResultCode::dry_run, "dry_run"},
     {ResultCode::busy, "busy"},
     {ResultCode::not_acknowledged, "not_acknowledged"},
     {ResultCode::plc_silent, "plc_silent"},

@@ -61,7 +61,7 @@ inline ResultBlock pick_for(const PlcRequest& request) {
 class Worker {
  public:
   using Answer = std::function<ResultBlock(const PlcRequest&)>;
-  Worker(ModbusServer& server, Answer answer) : server_(server) {
+  Worker(PlcLink& server, Answer answer) : server_(server) {
     server_.set_camera_ok(true);
     server_.set_model_loaded(true);
     thread_ = std::thread([this, answer = std::move(answer)] {
@@ -83,7 +83,7 @@ class Worker {
   std::atomic<int> requests{0};
 
  private:
-  ModbusServer& server_;
+  PlcLink& server_;
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

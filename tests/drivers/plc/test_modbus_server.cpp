@@ -152,7 +152,7 @@ TEST(ModbusServer, HalfSentRequestBlocksNobody) {
   EXPECT_LT(monotonic_ns() - before, patience_ns) << "a half-sent request may last six times as long";
   // The rest arrives late: it is a request all the same.
   stuck.back()->send_bytes(Bytes(read_one_input.begin() + 6, read_one_input.end()));
-  EXPECT_EQ(stuck.back()->receive_bytes(), (Bytes{0, 9, 0, 0, 0, 5, 1, 4, 2, 0, 1}));
+  EXPECT_EQ(stuck.back()->receive_bytes(), (Bytes{0, 9, 0, 0, 0, 5, 1, 4, 2, 0, register_map_version}));
 }
 
 TEST(ModbusServer, RefusalBlocksNobody) {
@@ -316,6 +316,33 @@ TEST(ModbusServer, WaitsCalmlyForDescriptors) {
   }
   EXPECT_EQ(raw->receive_bytes().size(), 11U);
   for (const int descriptor : filling) close(descriptor);
+}
+
+TEST(ModbusServer, SlowsDownAClientThatAsksTooOftenAndNobodyElse) {
+  ServerOptions options;
+  options.maximum_rate = 100;
+  options.unfinished_time = 100ms;
+  const auto server = start_server(options);
+  RawClient greedy(*server);
+  Bytes many;
+  constexpr int requests = 200;
+  for (int i = 0; i < requests; ++i) many.insert(many.end(), read_one_input.begin(), read_one_input.end());
+  const std::int64_t start = monotonic_ns();
+  greedy.send_bytes(many);
+  RawClient modest(*server);
+  for (int i = 0; i < 5; ++i) {
+    modest.send_bytes(read_one_input);
+    ASSERT_EQ(modest.receive_bytes().size(), 11U);
+  }
+  const std::int64_t modest_done = monotonic_ns();
+  std::size_t received = 0;
+  while (received < 11 * std::size_t{requests}) {
+    const Bytes answer = greedy.receive_bytes();
+    ASSERT_FALSE(answer.empty()) << "slowed down, not cut off; answers so far: " << received / 11;
+    received += answer.size();
+  }
+  EXPECT_GE(monotonic_ns() - start, 1'800'000'000) << "200 requests at 100 a second, ten of them at once";
+  EXPECT_LT(modest_done, monotonic_ns() - 500'000'000) << "the other client must not wait for it";
 }
 
 TEST(ModbusServer, RefusesClientsThatAreNotOnTheList) {

@@ -1,19 +1,26 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <regex>
+#include <set>
 #include <span>
 
+#include "drivers/plc/client_table.hpp"
+#include "drivers/plc/modbus_poller.hpp"
+#include "drivers/plc/modbus_server.hpp"
 #include "drivers/plc/orientation.hpp"
-#include "drivers/plc/register_map.hpp"
+#include "drivers/plc/register_tables.hpp"
+#include "drivers/plc/request_check.hpp"
 #include "drivers/plc/result_codes.hpp"
 #include "drivers/plc/word_order.hpp"
-#include "tests/drivers/plc/loopback.hpp"
 #include "tests/drivers/plc/page.hpp"
 
 namespace graspd {
 namespace {
+
+using namespace std::chrono_literals;
 
 [[nodiscard]] Page register_map() { return Page("configs/register-map.md"); }
 
@@ -43,18 +50,23 @@ TEST(RegisterMapPage, ListsEveryAddressOfTheCode) {
   expect_bits("## Discrete inputs", discrete_input_table);
   expect_registers("## Request registers", request_table);
   expect_registers("## Result block", block_table);
+  expect_registers("## Lists of picks", pick_list_table);
+  expect_registers("### Entry of a list", pick_entry_table);
   expect_registers("## Live registers", live_table);
 }
 
 TEST(RegisterMapPage, TypesFillTheirRegisters) {
   const auto words = [](std::string_view type) {
     if (type == "uint16") return 1;
-    if (type == "float32" || type == "int32") return 2;
-    return type == "float32[7]" || type == "int32[7]" ? 14 : 0;
+    if (type == "float32" || type == "int32" || type == "number") return 2;
+    if (type == "entry[6]") return pick_list::entries * pick_list::entry_size;
+    return type == "float32[7]" || type == "int32[7]" || type == "number[7]" ? 14 : 0;
   };
   for (const RegisterEntry& entry : request_table) EXPECT_EQ(entry.words, words(entry.type)) << entry.name;
   for (const RegisterEntry& entry : block_table) EXPECT_EQ(entry.words, words(entry.type)) << entry.name;
   for (const RegisterEntry& entry : live_table) EXPECT_EQ(entry.words, words(entry.type)) << entry.name;
+  for (const RegisterEntry& entry : pick_list_table) EXPECT_EQ(entry.words, words(entry.type)) << entry.name;
+  for (const RegisterEntry& entry : pick_entry_table) EXPECT_EQ(entry.words, words(entry.type)) << entry.name;
 }
 
 TEST(RegisterMapPage, ListsEveryCodeReasonAndConvention) {
@@ -98,6 +110,48 @@ TEST(RegisterMapPage, ShowsTheTestPatternInEveryWordOrder) {
   }
 }
 
+TEST(RegisterMapPage, ExplainsEveryOption) {
+  const auto rows = register_map().rows("## Request registers");
+  const std::string text = rows[5][4];
+  EXPECT_EQ(rows[5][1], "options");
+  const std::vector<std::pair<unsigned, std::string>> options{{request_option::dry_run, "dry_run"},
+                                                              {request_option::save_snapshot, "save_snapshot"},
+                                                              {request_option::avoid_last_place, "avoid_last_place"},
+                                                              {request_option::flange_pose_given, "flange_pose_given"},
+                                                              {request_option::scaled_numbers, "scaled_numbers"}};
+  unsigned all = 0;
+  for (std::size_t bit = 0; bit < options.size(); ++bit) {
+    EXPECT_EQ(options[bit].first, 1U << bit);
+    EXPECT_NE(text.find("Bit " + std::to_string(bit) + " " + options[bit].second), std::string::npos) << text;
+    all |= options[bit].first;
+  }
+  EXPECT_EQ(all, request_option::all);
+}
+
+TEST(RegisterMapPage, SaysHowEachFunctionIsAnswered) {
+  const Page page = register_map();
+  const auto line = std::find_if(page.lines().begin(), page.lines().end(),
+                                 [](const std::string& text) { return text.rfind("- Functions served: ", 0) == 0; });
+  ASSERT_NE(line, page.lines().end());
+  std::set<int> served;
+  const std::string list = line->substr(0, line->find(". Others"));
+  const std::regex number("\\b([0-9]+)\\b");
+  for (std::sregex_iterator match(list.begin(), list.end(), number); match != std::sregex_iterator(); ++match) {
+    served.insert(std::stoi((*match)[1]));
+  }
+  for (int function = 0; function < 128; ++function) {
+    const std::vector<std::uint8_t> request{static_cast<std::uint8_t>(function), 0, 0, 0, 1};
+    const bool refused = check_request(request) == RequestVerdict::illegal_function;
+    EXPECT_EQ(refused, !served.contains(function)) << function;
+  }
+  EXPECT_NE(line->find("function codes from 128 on, which only answers carry, close the connection"),
+            std::string::npos);
+  for (int function = 128; function < 256; ++function) {
+    const std::vector<std::uint8_t> frame{0, 1, 0, 0, 0, 6, 1, static_cast<std::uint8_t>(function), 0, 0, 0, 1};
+    EXPECT_EQ(next_frame(frame).state, FrameState::not_modbus) << function;
+  }
+}
+
 TEST(RegisterMapPage, StatesTheNumbersThatTheCodeUses) {
   std::string all;
   const Page page = register_map();
@@ -111,70 +165,30 @@ TEST(RegisterMapPage, StatesTheNumbersThatTheCodeUses) {
   states("found from " + std::to_string(holding_mirror + live_register::first) + " on");
   states("`map_version` | uint16 | | " + std::to_string(register_map_version) + ".");
   states("registers 0 to " + std::to_string(block::checksum - 1) + ", high byte");
-}
-
-struct Outcome {
-  int status = -1;
-  std::string text;
-};
-
-[[nodiscard]] Outcome run(const std::string& command) {
-  Outcome outcome;
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return outcome;
-  std::array<char, 256> buffer{};
-  while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) outcome.text += buffer.data();
-  const int status = pclose(pipe);
-  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
-
-/// The value that mbpoll prints for `reference`, or "".
-[[nodiscard]] std::string value_of(const std::string& text, int reference) {
-  const std::string label = "[" + std::to_string(reference) + "]:";
-  const std::size_t start = text.find(label);
-  if (start == std::string::npos) return "";
-  const std::size_t first = text.find_first_not_of(" \t", start + label.size());
-  return text.substr(first, text.find_first_of(" \t\n", first) - first);
-}
-
-TEST(RegisterMapPage, ExamplesWorkWithTheRealMbpoll) {
-  if (run("mbpoll -V").status != 0) GTEST_SKIP() << "mbpoll is not installed";
-  const auto server = start_server();
-  Worker worker(*server, pick_for);
-  ModbusClient client = connect_to(*server);
-  std::vector<Outcome> outcomes;
-  const std::string host = "192.168.0.10";
-  const Page page = register_map();
-  for (std::string line : page.lines()) {
-    if (line.rfind("mbpoll ", 0) != 0) continue;
-    line = line.substr(0, line.find('#'));
-    line.replace(line.find(host), host.size(), "-p " + std::to_string(server->port()) + " 127.0.0.1");
-    outcomes.push_back(run(line));
-    EXPECT_EQ(outcomes.back().status, 0) << line << "\n" << outcomes.back().text;
-    while (client.read_outputs().value().busy) std::this_thread::sleep_for(1ms);
-  }
-  ASSERT_EQ(outcomes.size(), 9U);
-  EXPECT_EQ(value_of(outcomes[0].text, discrete_input::ready), "1") << outcomes[0].text;
-  EXPECT_EQ(value_of(outcomes[3].text, discrete_input::done), "1") << outcomes[3].text;
-  EXPECT_EQ(value_of(outcomes[3].text, discrete_input::error), "0");
-  EXPECT_EQ(value_of(outcomes[3].text, discrete_input::result_valid), "1");
-  EXPECT_EQ(value_of(outcomes[4].text, block::request_id), "7") << outcomes[4].text;
-  EXPECT_EQ(value_of(outcomes[4].text, block::test_word), "4660");
-  EXPECT_EQ(value_of(outcomes[5].text, block::pick_pose + 4), "500") << outcomes[5].text;
-  EXPECT_EQ(value_of(outcomes[6].text, block::pick_pose_scaled + 4), "500000") << outcomes[6].text;
-  EXPECT_FALSE(client.read_outputs().value().done);
-  EXPECT_TRUE(client.read_outputs().value().ready);
-}
-
-TEST(RealClient, PymodbusGoesThroughTheHandshake) {
-  if (run("/usr/bin/python3 -c 'import pymodbus'").status != 0) GTEST_SKIP() << "python3-pymodbus is not installed";
-  const auto server = start_server();
-  Worker worker(*server, pick_for);
-  const Outcome outcome = run("/usr/bin/python3 " GRASPD_SOURCE_DIR "/tests/drivers/plc/pymodbus_handshake.py " +
-                              std::to_string(server->port()));
-  EXPECT_EQ(outcome.status, 0) << outcome.text;
-  EXPECT_EQ(worker.requests.load(), 20);
+  const auto span = [](int first, int count) {
+    return std::to_string(first) + " to " + std::to_string(first + count - 1);
+  };
+  states("float32 in input registers " + span(pick_list::floats_first, pick_list::count));
+  states("scaled int32 in " + span(pick_list::scaled_first, pick_list::count));
+  states("found from " + std::to_string(holding_mirror + pick_list::floats_first) + " and " +
+         std::to_string(holding_mirror + pick_list::scaled_first) + " on");
+  states("at offset " + std::to_string(pick_list::first_entry) + " + " + std::to_string(pick_list::entry_size) + " i");
+  states("over offsets 0 to " + std::to_string(pick_list::checksum - 1));
+  states("up to " + std::to_string(pick_list::entries) + ": they are in the lists");
+  states("1 to " + std::to_string(request_region::most_numbers) + ": the box of that number");
+  states(std::to_string(request_region::box) + ": `region_box`");
+  const ServerOptions server;
+  states(std::to_string(server.maximum_clients) + " connections at a time");
+  states(std::to_string(server.maximum_rate) + " requests a second");
+  EXPECT_EQ(server.unfinished_time, 2s);
+  states("half sent for two seconds");
+  const PollerOptions poller;
+  states("(" + std::to_string(poller.result_address) + " unless configured");
+  states("the block at " + span(poller.result_address, block::count));
+  states("the live registers at " + span(poller.result_address + live_register::first, live_register::count));
+  states("Give it " + std::to_string(input_register_space) + " registers");
+  states("`status_word`, register " + std::to_string(poller.result_address + live_register::status_word));
+  states("`heartbeat` (register " + std::to_string(poller.result_address + live_register::heartbeat) + ")");
 }
 
 }  // namespace

@@ -42,6 +42,12 @@ TEST(RequestCheck, AcceptsEverythingOnTheMap) {
   EXPECT_EQ(check_request(request(0x05, {coil::trigger, 0xFF00})), RequestVerdict::accept);
   EXPECT_EQ(check_request(request(0x06, {request_register::part, 65535})), RequestVerdict::accept);
   EXPECT_EQ(check_request(write_registers(0, {1, 2, 3, 4, 5})), RequestVerdict::accept);
+  EXPECT_EQ(check_request(write_registers(0, std::vector<unsigned>(request_register::count))), RequestVerdict::accept);
+  for (const unsigned list : {pick_list::floats_first, pick_list::scaled_first}) {
+    EXPECT_EQ(check_request(request(0x04, {list, pick_list::count})), RequestVerdict::accept);
+    EXPECT_EQ(check_request(request(0x03, {holding_mirror + list, pick_list::count})), RequestVerdict::accept);
+    EXPECT_EQ(check_request(request(0x04, {list + 1, pick_list::count})), RequestVerdict::illegal_address);
+  }
 }
 
 TEST(RequestCheck, RefusesToWriteAnythingButTheRequestRegisters) {
@@ -50,7 +56,7 @@ TEST(RequestCheck, RefusesToWriteAnythingButTheRequestRegisters) {
     ASSERT_EQ(check_request(write_registers(address, {0})), RequestVerdict::illegal_address) << address;
     ASSERT_EQ(check_request(request(0x05, {address, 0})), RequestVerdict::illegal_address) << address;
   }
-  EXPECT_EQ(check_request(write_registers(4, {0, 0})), RequestVerdict::illegal_address);
+  EXPECT_EQ(check_request(write_registers(request_register::count - 1, {0, 0})), RequestVerdict::illegal_address);
 }
 
 TEST(RequestCheck, RefusesReadsThatLeaveTheMap) {
@@ -67,6 +73,12 @@ TEST(RequestCheck, RefusesValuesThatMeanNothing) {
   EXPECT_EQ(check_request(request(0x06, {request_register::minimum_score, 10001})), RequestVerdict::illegal_value);
   EXPECT_EQ(check_request(request(0x06, {request_register::pose_convention, 7})), RequestVerdict::illegal_value);
   EXPECT_EQ(check_request(write_registers(0, {1, 1, 10001, 0})), RequestVerdict::illegal_value);
+  EXPECT_EQ(check_request(request(0x06, {request_register::options, request_option::all + 1U})),
+            RequestVerdict::illegal_value);
+  EXPECT_EQ(check_request(request(0x06, {request_register::results_wanted, pick_list::entries + 1U})),
+            RequestVerdict::illegal_value);
+  EXPECT_EQ(check_request(request(0x06, {request_register::region, 17})), RequestVerdict::illegal_value);
+  EXPECT_EQ(check_request(request(0x06, {request_register::region, request_region::box})), RequestVerdict::accept);
   EXPECT_EQ(check_request(request(0x05, {coil::trigger, 1})), RequestVerdict::illegal_value);
 }
 
@@ -111,7 +123,7 @@ TEST(RequestCheck, JudgesBothHalvesOfWriteAndRead) {
   };
   EXPECT_EQ(both(holding_mirror, block::count, 0, 7), RequestVerdict::accept);
   EXPECT_EQ(both(holding_mirror, block::count, holding_mirror, 7), RequestVerdict::illegal_address);
-  EXPECT_EQ(both(5, 1, 0, 7), RequestVerdict::illegal_address);
+  EXPECT_EQ(both(request_register::count, 1, 0, 7), RequestVerdict::illegal_address);
   EXPECT_EQ(both(0, 1, request_register::pose_convention, 7), RequestVerdict::illegal_value);
 }
 

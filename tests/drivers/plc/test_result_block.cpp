@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "drivers/plc/register_tables.hpp"
 #include "drivers/plc/result_block.hpp"
 
 namespace graspd {
@@ -122,6 +123,16 @@ TEST(ResultBlock, CarriesNoPoseUnlessItIsVerified) {
     const Words words = encoded(bad);
     for (std::size_t i = block::opening; i < block::checksum; ++i) EXPECT_EQ(words[i], 0) << i;
   }
+}
+
+TEST(ResultBlock, ShowsThePosesOfADryRunWithoutAPick) {
+  ResultBlock result = sample();
+  result.code = ResultCode::dry_run;
+  EXPECT_FALSE(has_pick(result));
+  const Result<ResultBlock> back = decode(encoded(result), {});
+  ASSERT_TRUE(back.ok()) << back.status().message();
+  expect_near(back.value().pick, result.pick);
+  EXPECT_FALSE(has_pick(back.value()));
 }
 
 TEST(ResultBlock, CutsWhatARegisterCannotHold) {
