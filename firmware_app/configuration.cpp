@@ -1,5 +1,6 @@
 #include "firmware_app/configuration.hpp"
 
+#include "drivers/plc/register_map.hpp"
 #include "firmware_app/configuration_sections.hpp"
 
 namespace graspd {
@@ -33,10 +34,14 @@ Result<Configuration> read_configuration(const std::string& path) {
   read_camera_section(root.table("camera"), configuration.camera);
   read_calibration_section(root.table("calibration"), configuration);
   read_detect_section(root.table("detect"), grasp.parameters.robot_from_camera, configuration.detect);
+  read_region_sections(root.tables("region"), configuration.regions);
+  if (configuration.regions.size() > request_region::most_numbers) {
+    root.complain("region", "may be given at most " + std::to_string(request_region::most_numbers) + " times");
+  }
   read_limits_section(root.table("limits"), configuration.detect.capacity, grasp.capacity);
   read_grasp_section(root.table("grasp"), grasp.parameters);
   read_gripper_section(root.table("gripper"), grasp.parameters.gripper);
-  read_modbus_section(root.table("modbus"), configuration.modbus);
+  read_modbus_section(root.table("modbus"), configuration);
   read_memory_section(root.table("memory"), configuration);
   read_output_section(root.table("output"), configuration);
   root.finish();

@@ -10,6 +10,7 @@
 #include "core/grasp/parameters.hpp"
 #include "core/status.hpp"
 #include "drivers/camera/recorded_source.hpp"
+#include "drivers/plc/modbus_poller.hpp"
 #include "drivers/plc/modbus_server.hpp"
 
 namespace graspd {
@@ -40,16 +41,25 @@ struct GraspSettings {
   GraspCapacity capacity;
 };
 
+/// Who asks whom.
+enum class ModbusRole : std::uint8_t {
+  server,  ///< The PLC polls graspd.
+  client,  ///< graspd polls the PLC.
+};
+
 /// What `graspd run` is told by its configuration file (configs/graspd.toml explains each key).
 /// Lengths in metres, times in seconds, angles in radians; paths resolved against the file's folder.
 struct Configuration {
   std::string path;
   CameraSettings camera;
-  bool calibrated = false;  ///< robot_from_camera is given; it lies in grasp.parameters.
+  std::vector<RequestBox> regions;  ///< [[region]], in the frame of the poses.
+  bool calibrated = false;          ///< robot_from_camera is given; it lies in grasp.parameters.
   std::vector<std::string> banks;
   DetectSettings detect;
   GraspSettings grasp;
+  ModbusRole modbus_role = ModbusRole::server;
   ServerOptions modbus;
+  PollerOptions plc;                                    ///< [modbus.client]; formats and timeouts as in `modbus`.
   std::size_t memory_budget = std::size_t{512} << 20U;  ///< Bytes.
   bool memory_lock = true;
   std::string picture;  ///< Where the latest annotated picture goes; empty: nowhere.

@@ -5,8 +5,7 @@
 namespace graspd {
 namespace {
 
-void read_box(SettingsTable table, const RigidTransform& robot_from_camera, PreprocessParameters& preprocess) {
-  if (!table.present()) return;
+RequestBox read_box(SettingsTable table) {
   Vector3 centre = Vector3::Zero();
   Vector3 size = Vector3::Zero();
   float turn = 0;
@@ -17,9 +16,7 @@ void read_box(SettingsTable table, const RigidTransform& robot_from_camera, Prep
   table.read("turn", turn, -360, 360, radians_per_degree);
   if (table.has("size") && !(size.minCoeff() > 0)) table.complain("size", "must hold three lengths greater than 0");
   table.finish();
-  const RigidTransform robot_from_box{Eigen::AngleAxisf(turn, Vector3::UnitZ()).toRotationMatrix(), centre};
-  preprocess.box_from_camera = inverse(robot_from_box) * robot_from_camera;
-  preprocess.box_half_size = size / 2;
+  return {{Eigen::AngleAxisf(turn, Vector3::UnitZ()).toRotationMatrix(), centre}, size / 2};
 }
 
 void read_match(SettingsTable table, DetectParameters& parameters) {
@@ -52,12 +49,20 @@ void read_detect_section(SettingsTable table, const RigidTransform& robot_from_c
   table.read_choice<BackgroundMode>("background", preprocess.background, backgrounds);
   table.read("background_margin", preprocess.background_margin, 0, 100, metres_per_millimetre);
   table.read("segmentation", preprocess.segmentation);
-  read_box(table.table("box"), robot_from_camera, preprocess);
+  if (const SettingsTable given = table.table("box"); given.present()) {
+    const RequestBox box = read_box(given);
+    preprocess.box_from_camera = inverse(box.reference_from_box) * robot_from_camera;
+    preprocess.box_half_size = box.half_size;
+  }
   if (preprocess.background == BackgroundMode::box) {
     table.require("box", "background = \"box\" needs [detect.box] with centre and size");
   }
   read_match(table.table("match"), detect.parameters);
   table.finish();
+}
+
+void read_region_sections(std::span<const SettingsTable> tables, std::vector<RequestBox>& regions) {
+  for (const SettingsTable& table : tables) regions.push_back(read_box(table));
 }
 
 void read_limits_section(SettingsTable table, DetectCapacity& detect, GraspCapacity& grasp) {

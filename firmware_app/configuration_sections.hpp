@@ -10,10 +10,11 @@ void read_camera_section(SettingsTable table, CameraSettings& camera);
 void read_calibration_section(SettingsTable table, Configuration& configuration);
 /// `robot_from_camera` must be known before: [detect.box] is given in the robot's frame.
 void read_detect_section(SettingsTable table, const RigidTransform& robot_from_camera, DetectSettings& detect);
+void read_region_sections(std::span<const SettingsTable> tables, std::vector<RequestBox>& regions);
 void read_limits_section(SettingsTable table, DetectCapacity& detect, GraspCapacity& grasp);
 void read_grasp_section(SettingsTable table, GraspParameters& grasp);
 void read_gripper_section(SettingsTable table, GripperParameters& gripper);
-void read_modbus_section(SettingsTable table, ServerOptions& modbus);
+void read_modbus_section(SettingsTable table, Configuration& configuration);
 
 inline constexpr double metres_per_millimetre = 0.001;
 inline constexpr double radians_per_degree = 0.017453292519943295;

@@ -20,6 +20,7 @@
 #include "firmware_app/memory_block.hpp"
 #include "firmware_app/memory_plan.hpp"
 #include "firmware_app/pick_worker.hpp"
+#include "firmware_app/plc_links.hpp"
 
 namespace graspd {
 namespace {
@@ -46,6 +47,7 @@ PickSettings pick_settings(const Configuration& configuration) {
   PickSettings settings;
   settings.detect = configuration.detect.parameters;
   settings.grasp = configuration.grasp.parameters;
+  settings.regions = configuration.regions;
   settings.calibrated = configuration.calibrated;
   settings.minimum_score = configuration.detect.minimum_score;
   settings.deadline_ns = configuration.detect.deadline_ns;
@@ -79,7 +81,7 @@ Status equip(const Configuration& configuration, Equipment& equipment) {
 
 /// Watches workers and signals until somebody asks to stop.
 void supervise(SignalWaiter& signals, ServiceNotifier& notifier, const PickWorker& worker, const PlcLink& plc) {
-  constexpr std::array<const char*, 2> names{"pick worker", "Modbus server"};
+  constexpr std::array<const char*, 2> names{"pick worker", "Modbus link"};
   const std::int64_t interval_ms = notifier.watchdog_interval_ns() / 1'000'000;
   const std::chrono::milliseconds period(interval_ms == 0 ? 1000 : std::clamp<std::int64_t>(interval_ms / 4, 10, 1000));
   ProgressWatch watch;
@@ -114,9 +116,9 @@ Status run_daemon(const Configuration& configuration) {
   Equipment equipment;
   if (Status equipped = equip(configuration, equipment); !equipped.ok()) return equipped;
   if (Status limited = limit_thread_stacks(); !limited.ok()) return limited;
-  Result<std::unique_ptr<ModbusServer>> started = ModbusServer::start(configuration.modbus);
-  if (!started.ok()) return started.status();
-  ModbusServer& plc = *started.value();
+  Result<OpenedLink> opened = open_plc_link(configuration);
+  if (!opened.ok()) return opened.status();
+  PlcLink& plc = *opened.value().link;
   if (configuration.memory_lock) {
     if (Status locked = lock_memory(); !locked.ok()) return locked;
   }
@@ -129,9 +131,10 @@ Status run_daemon(const Configuration& configuration) {
   PickWorker worker(equipment.cycle, plc, pictures.get());
   if (Status ready = worker.wait_ready(); !ready.ok()) return ready;
   notifier.ready();
-  notifier.status("waiting for the PLC on port %u", unsigned{plc.port()});
-  log_event(LogLevel::notice, "N001", "ready address=%s port=%u banks=%zu memory_mib=%.0f budget_mib=%.0f",
-            configuration.modbus.bind_address.c_str(), unsigned{plc.port()}, equipment.banks.banks.size(),
+  const OpenedLink& link = opened.value();
+  notifier.status("%s %s port %u", link.role, link.address.c_str(), unsigned{link.port});
+  log_event(LogLevel::notice, "N001", "ready, %s address=%s port=%u banks=%zu memory_mib=%.0f budget_mib=%.0f",
+            link.role, link.address.c_str(), unsigned{link.port}, equipment.banks.banks.size(),
             static_cast<double>(equipment.plan.total()) / 1048576.0,
             static_cast<double>(configuration.memory_budget) / 1048576.0);
   supervise(signals.value(), notifier, worker, plc);

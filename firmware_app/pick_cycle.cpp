@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "firmware_app/request_resolution.hpp"
+
 namespace graspd {
 namespace {
 
@@ -10,18 +12,6 @@ float seconds(std::int64_t nanoseconds) { return static_cast<float>(static_cast<
 
 std::uint16_t register_value(std::size_t value) {
   return static_cast<std::uint16_t>(std::min<std::size_t>(value, std::numeric_limits<std::uint16_t>::max()));
-}
-
-/// The banks of part number `part`; all of them for 0.
-Status select_banks(std::span<const Bank> banks, std::uint16_t part, std::span<const Bank>& selected) {
-  selected = banks;
-  if (part == 0) return {};
-  for (std::size_t i = 0; i < banks.size(); ++i) {
-    if (banks[i].part->part_id != part) continue;
-    selected = banks.subspan(i, 1);
-    return {};
-  }
-  return Status::format(StatusCode::bad_request, "no bank of part number %u is loaded", unsigned{part});
 }
 
 Status grab(PickCycle& cycle, DepthFrame& frame) {
@@ -60,7 +50,7 @@ Rejection main_rejection(const Detections& detections) {
 
 void put_verdict(const Capture& capture, ResultBlock& block) {
   const Detections& detections = capture.detections;
-  block.flags = static_cast<std::uint16_t>(detections.flags);
+  block.flags = result_flags(detections.flags, capture.picks.flags);
   block.instances_found = register_value(detections.instances.size());
   block.pickable = register_value(capture.picks.pickable);
   if (capture.picks.found) {
@@ -78,23 +68,43 @@ void put_verdict(const Capture& capture, ResultBlock& block) {
   }
 }
 
-/// Puts the pick that is next in line into the block and counts it as given.
-void put_pick(const PickCycle& cycle, Capture& capture, ResultBlock& block) {
-  const Pick& pick = capture.picks.picks[capture.given++];
+ListedPick listed_pick(const Capture& capture, const Pick& pick) {
   const Instance& instance = capture.detections.instances[pick.instance];
-  block.code = ResultCode::ok;
-  block.part = register_value(capture.banks[instance.bank].part->part_id);
-  block.view = register_value(instance.view);
+  ListedPick entry;
+  entry.part = register_value(capture.banks[instance.bank].part->part_id);
+  entry.grasp = register_value(pick.grasp);
+  entry.score = pick.score;
+  entry.opening = pick.opening;
+  entry.pick = pick.robot_from_tool;
+  return entry;
+}
+
+/// Puts the picks that are next in line into the block, as many as are wanted, and counts them as given
+/// unless this is a dry run.
+void put_picks(const PickCycle& cycle, const PlcRequest& request, Capture& capture, ResultBlock& block) {
+  const std::span<const Pick> left = capture.picks.picks.subspan(capture.given);
+  const std::size_t count = std::min<std::size_t>({left.size(), request.results_wanted, block.listed.size()});
+  const Pick& pick = left.front();
+  block.code = request.dry_run ? ResultCode::dry_run : ResultCode::ok;
+  block.part = register_value(capture.banks[capture.detections.instances[pick.instance].bank].part->part_id);
+  block.view = register_value(capture.detections.instances[pick.instance].view);
   block.grasp = register_value(pick.grasp);
   block.score = pick.score;
-  block.remaining = register_value(capture.picks.picks.size() - capture.given);
-  block.result_index = register_value(capture.given);
+  block.remaining = register_value(left.size() - count);
+  block.result_index = register_value(capture.given + 1);
   block.opening = pick.opening;
   block.pick = pick.robot_from_tool;
   block.approach = pick.robot_from_approach;
   block.part_pose = pick.robot_from_part;
   block.frame = cycle.settings.calibrated ? PoseFrame::robot : PoseFrame::camera;
-  block.verified = instance.rejection == Rejection::none;
+  block.approach_distance = cycle.settings.grasp.approach_distance;
+  block.verified = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    block.verified = block.verified && capture.detections.instances[left[i].instance].rejection == Rejection::none;
+    block.listed[i] = listed_pick(capture, left[i]);
+  }
+  block.listed_count = register_value(count);
+  if (!request.dry_run) capture.given += count;
 }
 
 ResultBlock begin_block(const PlcRequest& request) {
@@ -133,8 +143,10 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
   Capture& capture = cycle.capture;
   // From here on nothing of an earlier frame can reach the registers.
   capture = {};
-  if (Status known = select_banks(cycle.banks, request.part, capture.banks); !known.ok()) {
-    return failed(cycle, request, known);
+  DetectParameters parameters = cycle.settings.detect;
+  if (Status resolved = resolve_request(request, cycle.settings, cycle.banks, capture.banks, parameters);
+      !resolved.ok()) {
+    return failed(cycle, request, resolved);
   }
 
   const std::int64_t start = now();
@@ -145,8 +157,8 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
   const std::int64_t taken = now();
   if (!plc.is_wanted(request.sequence)) return given_up(request);
 
-  const Status detected = detect(capture.frame, detect_request(cycle, request), cycle.settings.detect,
-                                 cycle.memory.detect, capture.detections);
+  const Status detected =
+      detect(capture.frame, detect_request(cycle, request), parameters, cycle.memory.detect, capture.detections);
   if (!detected.ok()) return failed(cycle, request, detected);
   const std::int64_t found = now();
   capture.picks =
@@ -155,7 +167,7 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
 
   Answer answer{begin_block(request), {}};
   put_verdict(capture, answer.block);
-  if (capture.picks.found) put_pick(cycle, capture, answer.block);
+  if (capture.picks.found) put_picks(cycle, request, capture, answer.block);
   set_time(answer.block, BlockStage::capture, taken - start);
   for (std::size_t i = 0; i < stage_count; ++i) {
     const auto stage = static_cast<BlockStage>(static_cast<std::size_t>(BlockStage::preprocess) + i);
@@ -168,10 +180,11 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
 
 Answer answer_next(PickCycle& cycle, const PlcRequest& request) {
   Capture& capture = cycle.capture;
+  if (Status served = check_served(request); !served.ok()) return failed(cycle, request, served);
   Answer answer{begin_block(request), {}};
   if (capture.answered) put_verdict(capture, answer.block);
   if (capture.answered && capture.given < capture.picks.picks.size()) {
-    put_pick(cycle, capture, answer.block);
+    put_picks(cycle, request, capture, answer.block);
   } else {
     answer.block.code = ResultCode::nothing_left;
     answer.block.reason = ResultReason::none;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/detect/detector.hpp"
 #include "core/grasp/planner.hpp"
@@ -16,9 +17,10 @@ namespace graspd {
 struct PickSettings {
   DetectParameters detect;
   GraspParameters grasp;
-  bool calibrated = false;       ///< Poses are in the robot's frame.
-  float minimum_score = -1.0F;   ///< When the PLC asks for none; negative: the bank's own.
-  std::int64_t deadline_ns = 0;  ///< After the trigger; 0: none.
+  std::vector<RequestBox> regions;  ///< That a request may name, from number 1 on.
+  bool calibrated = false;          ///< Poses are in the robot's frame.
+  float minimum_score = -1.0F;      ///< When the PLC asks for none; negative: the bank's own.
+  std::int64_t deadline_ns = 0;     ///< After the trigger; 0: none.
   std::int64_t maximum_age_ns = 0;
   std::int64_t (*now_ns)() = nullptr;  ///< Monotonic clock.
 };

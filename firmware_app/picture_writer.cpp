@@ -37,7 +37,7 @@ void PictureWriter::offer(const Capture& capture, const Answer& answer) {
     std::copy_n(capture.detections.instances.begin(), instance_count_, memory_.pictured_instances.begin());
     banks_ = capture.banks;
     pick_.reset();
-    if (answer.block.code == ResultCode::ok && capture.given > 0) pick_ = capture.picks.picks[capture.given - 1];
+    if (has_poses(answer.block)) pick_ = capture.picks.picks[answer.block.result_index - std::size_t{1}];
     answer_ = answer;
     pending_ = true;
   }

@@ -20,9 +20,12 @@ struct PreprocessParameters {
   float background_margin = 0.0015F;  ///< What stands out less than this (metres) from the background belongs to it.
   float plane_slack = 1.0F;        ///< Voxels that a part may stand below a plane that was found in the frame itself.
   RigidTransform box_from_camera;  ///< For BackgroundMode::box.
-  Vector3 box_half_size = Vector3::Zero();  ///< Metres; for BackgroundMode::box.
-  bool segmentation = true;                 ///< Drop connected surfaces too small to be a part.
-  float cells_per_voxel = 4.0F;             ///< Resolution of the organised map, in cells along a voxel edge.
+  Vector3 box_half_size = Vector3::Zero();     ///< Metres; for BackgroundMode::box.
+  bool has_region = false;                     ///< Outside a box everything is background, however else that is found.
+  RigidTransform region_from_camera;           ///< The box of the region about its middle.
+  Vector3 region_half_size = Vector3::Zero();  ///< Metres.
+  bool segmentation = true;                    ///< Drop connected surfaces too small to be a part.
+  float cells_per_voxel = 4.0F;                ///< Resolution of the organised map, in cells along a voxel edge.
 };
 
 /// Voting (paper 1.3 and 2.4).

@@ -69,6 +69,9 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float sam
   } else if (parameters.background == BackgroundMode::box) {
     remove_background_by_box(parameters.box_from_camera, parameters.box_half_size, threads, scene.map);
   }
+  if (parameters.has_region) {
+    remove_background_by_box(parameters.region_from_camera, parameters.region_half_size, threads, scene.map);
+  }
   if (parameters.segmentation) {
     const auto cells = static_cast<std::uint32_t>(2.0F * parameters.cells_per_voxel * parameters.cells_per_voxel);
     (void)segment_foreground(cells, workspace.segments, scene.map);

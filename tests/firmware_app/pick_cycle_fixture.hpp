@@ -48,9 +48,13 @@ class PickCycleFixture {
   Answer ask(RequestKind kind = RequestKind::capture, std::uint16_t part = 0) {
     PlcRequest request;
     request.kind = kind;
+    request.part = part;
+    return ask(request);
+  }
+  /// Asks for what `request` says, under the next sequence number.
+  Answer ask(PlcRequest request) {
     request.sequence = ++sequence;
     request.request_id = static_cast<std::uint16_t>(100 + sequence);
-    request.part = part;
     request.received_ns = monotonic_ns();
     return answer_request(cycle, request, plc);
   }

@@ -150,5 +150,34 @@ TEST_F(ConfigurationFile, BoxIsGivenInTheRobotsFrame) {
   EXPECT_TRUE(preprocess.box_half_size.isApprox(Vector3(0.2F, 0.15F, 0.05F)));
 }
 
+TEST_F(ConfigurationFile, RegionsAreNumberedInTheirOrder) {
+  const std::string region = "[[region]]\ncentre = [0, 0, 700]\nsize = [200, 100, 50]\n";
+  const Result<Configuration> result =
+      read(std::string(smallest) + ("[[region]]\ncentre = [1, 2, 3]\nsize = [1, 1, 1]\n" + region));
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  ASSERT_EQ(result.value().regions.size(), 2U);
+  EXPECT_TRUE(result.value().regions[1].half_size.isApprox(Vector3(0.1F, 0.05F, 0.025F)));
+  EXPECT_TRUE(result.value().regions[1].reference_from_box.translation.isApprox(Vector3(0, 0, 0.7F)));
+  std::string many(smallest);
+  for (int i = 0; i < 17; ++i) many += region;
+  EXPECT_THAT(complaint(many), HasSubstr("region may be given at most 16 times"));
+}
+
+TEST_F(ConfigurationFile, ClientRoleNeedsThePlcsAddress) {
+  EXPECT_THAT(complaint(std::string(smallest) + "[modbus]\nrole = \"client\"\n"),
+              HasSubstr("modbus.role \"client\" needs [modbus.client] with the address of the PLC"));
+  const Result<Configuration> result =
+      read(std::string(smallest) +
+           "[modbus]\nrole = \"client\"\nword_order = \"cdab\"\nheartbeat_timeout = 2.0\n"
+           "[modbus.client]\naddress = \"192.168.0.1\"\nresult_address = 4000\npoll_period = 0.02\n");
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  EXPECT_EQ(result.value().modbus_role, ModbusRole::client);
+  EXPECT_EQ(result.value().plc.address, "192.168.0.1");
+  EXPECT_EQ(result.value().plc.result_address, 4000);
+  EXPECT_EQ(result.value().plc.poll_period, std::chrono::milliseconds(20));
+  EXPECT_EQ(result.value().plc.format.word_order, WordOrder::cdab) << "shared with the server's role";
+  EXPECT_EQ(result.value().plc.heartbeat_timeout, std::chrono::seconds(2));
+}
+
 }  // namespace
 }  // namespace graspd

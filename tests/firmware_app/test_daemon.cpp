@@ -5,6 +5,7 @@
 
 #include "drivers/files/atomic_file.hpp"
 #include "drivers/plc/modbus_client.hpp"
+#include "tests/drivers/plc/plc_stand_in.hpp"
 #include "tests/firmware_app/graspd_process.hpp"
 #include "tests/firmware_app/pick_cycle_fixture.hpp"
 
@@ -18,12 +19,13 @@ constexpr std::chrono::seconds patience{60};
 /// `graspd run` on a recorded scene of two angle bars.
 class Daemon : public testing::Test {
  protected:
-  void start(const std::string& more = "") {
+  void start(const std::string& more = "", const std::string& role = "server") {
     ASSERT_TRUE(write_file(folder_.path("bar.bank"), shared_angle_bar_bank()).ok());
     const std::filesystem::path scene = write_bop_scene(folder_.path("data"), angle_bar_scene());
-    const std::string configuration = folder_.write(
-        "graspd.toml", "banks = [\"bar.bank\"]\n[camera]\nsource = \"recorded\"\npath = \"" + scene.string() +
-                           "\"\n[modbus]\naddress = \"127.0.0.1\"\nport = 0\n[memory]\nlock = false\n" + more);
+    const std::string configuration =
+        folder_.write("graspd.toml", "banks = [\"bar.bank\"]\n[camera]\nsource = \"recorded\"\npath = \"" +
+                                         scene.string() + "\"\n[memory]\nlock = false\n[modbus]\nrole = \"" + role +
+                                         "\"\naddress = \"127.0.0.1\"\nport = 0\n" + more);
     process_.emplace(folder_, std::vector<std::string>{"run", "--config", configuration});
     const std::optional<std::string> port = process_->wait_for(" port=", patience);
     ASSERT_TRUE(port) << process_->errors();
@@ -78,6 +80,30 @@ TEST_F(Daemon, LeavesAPictureOfTheLatestAnswer) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   EXPECT_GT(std::filesystem::file_size(folder_.path("latest.png")), 1000U);
+  process_->terminate();
+  EXPECT_EQ(process_->wait(), 0) << process_->errors();
+}
+
+TEST_F(Daemon, PollsAPlcThatIsAServer) {
+  PlcStandIn plc;
+  plc.set_register(request_register::request_id, 815);
+  start("[modbus.client]\naddress = \"127.0.0.1\"\nport = " + std::to_string(plc.port()) + "\n", "client");
+  const auto comes = [&](std::uint16_t input) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (!plc.has(input) && std::chrono::steady_clock::now() < end) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return plc.has(input);
+  };
+  ASSERT_TRUE(comes(discrete_input::ready)) << process_->errors();
+  plc.set_coil(coil::trigger, true);
+  ASSERT_TRUE(comes(discrete_input::done)) << process_->errors();
+  EXPECT_TRUE(plc.has(discrete_input::result_valid));
+  const Result<ResultBlock> block = decode(plc.results(0, block::count), {});
+  ASSERT_TRUE(block.ok()) << block.status().message();
+  EXPECT_EQ(block.value().code, ResultCode::ok);
+  EXPECT_EQ(block.value().request_id, 815);
+  EXPECT_EQ(block.value().instances_found, 2);
   process_->terminate();
   EXPECT_EQ(process_->wait(), 0) << process_->errors();
 }

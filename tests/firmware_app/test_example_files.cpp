@@ -146,6 +146,7 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(grasp.parameters.gripper.half_turn);
   GRASPD_COMPARE(modbus.port);
   GRASPD_COMPARE(modbus.maximum_clients);
+  GRASPD_COMPARE(modbus.maximum_rate);
   GRASPD_COMPARE(modbus.idle_time.count());
   GRASPD_COMPARE(modbus.heartbeat_timeout.count());
   GRASPD_COMPARE(modbus.request_timeout.count());
@@ -153,6 +154,14 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(modbus.format.convention);
   GRASPD_COMPARE(modbus.format.length);
   GRASPD_COMPARE(modbus.format.angle);
+  GRASPD_COMPARE(modbus_role);
+  GRASPD_COMPARE(plc.port);
+  GRASPD_COMPARE(plc.unit);
+  GRASPD_COMPARE(plc.coil_address);
+  GRASPD_COMPARE(plc.request_address);
+  GRASPD_COMPARE(plc.result_address);
+  GRASPD_COMPARE(plc.poll_period.count());
+  GRASPD_COMPARE(plc.response_timeout.count());
   GRASPD_COMPARE(memory_budget);
   GRASPD_COMPARE(memory_lock);
 #undef GRASPD_COMPARE

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 
 #include "core/geometry/symmetry.hpp"
@@ -129,6 +130,14 @@ TEST(PickCycle, UnknownPartIsABadRequest) {
   PickCycleFixture fixture(angle_bar_scene());
   const Answer answer = fixture.ask(RequestKind::capture, 99);
   EXPECT_EQ(answer.block.code, ResultCode::bad_request);
+  PlcRequest unserved;
+  unserved.save_snapshot = true;
+  EXPECT_THAT(message(unserved), HasSubstr("not served"));
+  unserved.kind = RequestKind::next;
+  EXPECT_THAT(message(unserved), HasSubstr("not served"));
+  unserved = {};
+  unserved.avoid_last_place = true;
+  EXPECT_THAT(message(unserved), HasSubstr("not served"));
   EXPECT_EQ(fixture.source.sequence, 0U) << "no frame is taken for it";
   EXPECT_EQ(explained(answer), "no pick: no bank of part number 99 is loaded");
   EXPECT_EQ(fixture.ask(RequestKind::capture, 7).block.code, ResultCode::ok);
@@ -179,6 +188,102 @@ TEST(PickCycle, PosesComeInTheRobotsFrameWhenCalibrated) {
   EXPECT_EQ(in_robot.frame, PoseFrame::robot);
   const RigidTransform expected = fixture.cycle.settings.grasp.robot_from_camera * in_camera.part_pose;
   EXPECT_LT((expected.translation - in_robot.part_pose.translation).norm(), 1e-4F);
+}
+
+TEST(PickCycle, GivesAsManyResultsAsAreWanted) {
+  PickCycleFixture fixture(angle_bar_scene());
+  PlcRequest request;
+  request.results_wanted = 6;
+  const ResultBlock both = fixture.ask(request).block;
+  ASSERT_EQ(both.code, ResultCode::ok);
+  EXPECT_EQ(both.listed_count, 2);
+  EXPECT_EQ(both.remaining, 0);
+  EXPECT_EQ(both.result_index, 1);
+  EXPECT_EQ(both.listed[0].pick.translation, both.pick.translation) << "the first is the one in the block";
+  EXPECT_GT((both.listed[1].pick.translation - both.pick.translation).norm(), 0.05F);
+  EXPECT_EQ(both.listed[1].part, 7);
+  EXPECT_FLOAT_EQ(both.approach_distance, fixture.cycle.settings.grasp.approach_distance);
+  EXPECT_EQ(fixture.ask(RequestKind::next).block.code, ResultCode::nothing_left);
+  EXPECT_EQ(fixture.ask().block.listed_count, 1);
+}
+
+TEST(PickCycle, DryRunShowsAPickAndCountsNothing) {
+  PickCycleFixture fixture(angle_bar_scene());
+  PlcRequest request;
+  request.dry_run = true;
+  const Answer dry = fixture.ask(request);
+  EXPECT_EQ(dry.block.code, ResultCode::dry_run);
+  EXPECT_FALSE(has_pick(dry.block));
+  EXPECT_TRUE(has_poses(dry.block));
+  EXPECT_FALSE(is_fault(dry.block.code));
+  EXPECT_THAT(explained(dry), HasSubstr("dry run: would be pick 1 of part 7"));
+  const ResultBlock next = fixture.ask(RequestKind::next).block;
+  ASSERT_EQ(next.code, ResultCode::ok);
+  EXPECT_EQ(next.result_index, 1);
+  EXPECT_EQ(next.pick.translation, dry.block.pick.translation);
+}
+
+TEST(PickCycle, LooksOnlyInsideTheRegion) {
+  PickCycleFixture fixture(angle_bar_scene());
+  const std::vector<RigidTransform>& poses = fixture.source.scene.poses;
+  const auto box_about = [](const Vector3& middle) {
+    RequestBox box;
+    box.reference_from_box.translation = middle;
+    box.half_size = Vector3::Constant(0.06F);
+    return box;
+  };
+  fixture.cycle.settings.regions = {box_about({0, 0, 5}), box_about(poses[1].translation)};
+  PlcRequest request;
+  request.region = 2;
+  const ResultBlock numbered = fixture.ask(request).block;
+  ASSERT_EQ(numbered.code, ResultCode::ok);
+  EXPECT_EQ(numbered.instances_found, 1);
+  EXPECT_LT((numbered.part_pose.translation - poses[1].translation).norm(), 0.002F);
+  request.region = 1;
+  EXPECT_EQ(fixture.ask(request).block.code, ResultCode::empty_bin) << "nothing lies five metres away";
+
+  request.region = request_region::box;
+  request.box = box_about(poses[0].translation);
+  const ResultBlock boxed = fixture.ask(request).block;
+  ASSERT_EQ(boxed.code, ResultCode::ok);
+  EXPECT_LT((boxed.part_pose.translation - poses[0].translation).norm(), 0.002F);
+  EXPECT_EQ(fixture.ask().block.instances_found, 2) << "the next request has no region";
+}
+
+TEST(PickCycle, RequestsThatMeanNothingAreBadRequests) {
+  PickCycleFixture fixture(angle_bar_scene());
+  const auto message = [&](const PlcRequest& request) {
+    const Answer answer = fixture.ask(request);
+    EXPECT_EQ(answer.block.code, ResultCode::bad_request);
+    EXPECT_FALSE(has_poses(answer.block));
+    return explained(answer);
+  };
+  PlcRequest region;
+  region.region = 3;
+  EXPECT_EQ(message(region), "no pick: region 3 is not configured: there are 0");
+  PlcRequest box;
+  box.region = request_region::box;
+  EXPECT_THAT(message(box), HasSubstr("region_box in the request is no box"));
+  box.box.half_size.setConstant(std::numeric_limits<float>::quiet_NaN());
+  EXPECT_THAT(message(box), HasSubstr("region_box in the request is no box"));
+  PlcRequest flange;
+  flange.has_flange_pose = true;
+  flange.robot_from_flange.translation.x() = std::numeric_limits<float>::infinity();
+  EXPECT_THAT(message(flange), HasSubstr("flange_pose in the request is no pose"));
+  PlcRequest malformed;
+  malformed.well_formed = false;
+  EXPECT_THAT(message(malformed), HasSubstr("means nothing"));
+  malformed.kind = RequestKind::next;
+  EXPECT_THAT(message(malformed), HasSubstr("means nothing"));
+  PlcRequest unserved;
+  unserved.save_snapshot = true;
+  EXPECT_THAT(message(unserved), HasSubstr("not served"));
+  unserved.kind = RequestKind::next;
+  EXPECT_THAT(message(unserved), HasSubstr("not served"));
+  unserved = {};
+  unserved.avoid_last_place = true;
+  EXPECT_THAT(message(unserved), HasSubstr("not served"));
+  EXPECT_EQ(fixture.source.sequence, 0U) << "no frame is taken for any of them";
 }
 
 TEST(PickCycle, WarmUpLeavesNothingToPick) {

@@ -1,0 +1,58 @@
+#include "firmware_app/request_resolution.hpp"
+
+#include "drivers/plc/register_map.hpp"
+
+namespace graspd {
+namespace {
+
+Status select_banks(std::span<const Bank> banks, std::uint16_t part, std::span<const Bank>& selected) {
+  selected = banks;
+  if (part == 0) return {};
+  for (std::size_t i = 0; i < banks.size(); ++i) {
+    if (banks[i].part->part_id != part) continue;
+    selected = banks.subspan(i, 1);
+    return {};
+  }
+  return Status::format(StatusCode::bad_request, "no bank of part number %u is loaded", unsigned{part});
+}
+
+bool is_finite(const RigidTransform& pose) { return pose.rotation.allFinite() && pose.translation.allFinite(); }
+
+Status select_region(const PlcRequest& request, const PickSettings& settings, PreprocessParameters& preprocess) {
+  if (request.region == 0) return {};
+  const bool by_number = request.region != request_region::box;
+  if (by_number && request.region > settings.regions.size()) {
+    return Status::format(StatusCode::bad_request, "region %u is not configured: there are %zu",
+                          unsigned{request.region}, settings.regions.size());
+  }
+  const RequestBox& box = by_number ? settings.regions[request.region - std::size_t{1}] : request.box;
+  if (!is_finite(box.reference_from_box) || !box.half_size.allFinite() || !(box.half_size.minCoeff() > 0)) {
+    return {StatusCode::bad_request, "region_box in the request is no box: check its numbers and the word order"};
+  }
+  preprocess.has_region = true;
+  preprocess.region_from_camera = inverse(box.reference_from_box) * settings.grasp.robot_from_camera;
+  preprocess.region_half_size = box.half_size;
+  return {};
+}
+
+}  // namespace
+
+Status check_served(const PlcRequest& request) {
+  if (!request.well_formed) return {StatusCode::bad_request, "a request register holds a value that means nothing"};
+  if (request.save_snapshot || request.avoid_last_place) {
+    return {StatusCode::bad_request, "options asks for save_snapshot or avoid_last_place, which are not served yet"};
+  }
+  return {};
+}
+
+Status resolve_request(const PlcRequest& request, const PickSettings& settings, std::span<const Bank> banks,
+                       std::span<const Bank>& selected, DetectParameters& parameters) {
+  if (Status served = check_served(request); !served.ok()) return served;
+  if (request.has_flange_pose && !is_finite(request.robot_from_flange)) {
+    return {StatusCode::bad_request, "flange_pose in the request is no pose: check its numbers and the word order"};
+  }
+  if (Status known = select_banks(banks, request.part, selected); !known.ok()) return known;
+  return select_region(request, settings, parameters.preprocess);
+}
+
+}  // namespace graspd
