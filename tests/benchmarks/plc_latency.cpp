@@ -1,0 +1,209 @@
+// How long an answer takes beside capture and detection: from before the trigger is sent until a client has read
+// `done`, less the times of those stages. That is more than from the trigger seen to the registers written, by the
+// network both ways and the client's own polling.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "drivers/plc/modbus_client.hpp"
+#include "drivers/plc/modbus_server.hpp"
+#include "drivers/system/clock.hpp"
+#include "firmware_app/frame_sources.hpp"
+#include "firmware_app/loaded_banks.hpp"
+#include "firmware_app/memory_block.hpp"
+#include "firmware_app/memory_plan.hpp"
+#include "firmware_app/pick_cycle.hpp"
+
+namespace graspd {
+namespace {
+
+/// What a configuration names, ready to pick; without one, requests are answered at once.
+struct Equipment {
+  Configuration configuration;
+  LoadedBanks banks;
+  OpenedSource frames;
+  MemoryBlock block;
+  PickCycle cycle;
+  bool is_real = false;
+};
+
+[[nodiscard]] Status equip(const std::string& path, Equipment& equipment) {
+  Result<Configuration> read = read_configuration(path);
+  if (!read.ok()) return read.status();
+  equipment.configuration = std::move(read).value();
+  const Configuration& configuration = equipment.configuration;
+  Result<LoadedBanks> banks = load_banks(configuration.banks);
+  if (!banks.ok()) return banks.status();
+  equipment.banks = std::move(banks).value();
+  Result<OpenedSource> frames = open_source(configuration.camera);
+  if (!frames.ok()) return frames.status();
+  equipment.frames = std::move(frames).value();
+  const MemoryPlan plan =
+      plan_memory(configuration, equipment.banks, equipment.frames.source->limits(), equipment.frames.bytes, 0);
+  equipment.block = MemoryBlock(plan.arena_bytes);
+  Arena arena(equipment.block.bytes());
+  PickCycle& cycle = equipment.cycle;
+  cycle.settings.detect = configuration.detect.parameters;
+  cycle.settings.grasp = configuration.grasp.parameters;
+  cycle.settings.calibrated = configuration.calibrated;
+  cycle.settings.maximum_age_ns = 1'000'000'000;
+  cycle.settings.now_ns = &monotonic_ns;
+  cycle.banks = equipment.banks.banks;
+  cycle.source = equipment.frames.source.get();
+  cycle.memory = carve_working_memory(arena, plan.capacity);
+  equipment.is_real = true;
+  return {};
+}
+
+[[nodiscard]] ResultBlock answer_at_once(const PlcRequest& request) {
+  ResultBlock block;
+  block.sequence = request.sequence;
+  block.request_id = request.request_id;
+  block.code = ResultCode::ok;
+  block.verified = true;
+  return block;
+}
+
+/// Seconds of capture and detection in an answer.
+[[nodiscard]] double excluded(const ResultBlock& block) {
+  double sum = 0;
+  for (const BlockStage stage : {BlockStage::capture, BlockStage::preprocess, BlockStage::match, BlockStage::cluster,
+                                 BlockStage::refine, BlockStage::verify}) {
+    sum += static_cast<double>(block.stage_time[static_cast<std::size_t>(stage)]);
+  }
+  return sum;
+}
+
+/// Answers requests; `excluded_ns` is that of the last answer.
+class Worker {
+ public:
+  Worker(PlcLink& link, Equipment& equipment) : link_(link), equipment_(equipment) {
+    thread_ = std::thread([this] { work(); });
+    ready_.wait(false);
+  }
+  ~Worker() {
+    stop_ = true;
+    thread_.join();
+  }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+  std::atomic<std::int64_t> excluded_ns{0};
+
+ private:
+  void work() {
+    if (equipment_.is_real && !warm_up(equipment_.cycle).ok()) std::printf("the warm-up failed\n");
+    link_.set_camera_ok(true);
+    link_.set_model_loaded(true);
+    ready_ = true;
+    ready_.notify_all();
+    while (!stop_) {
+      PlcRequest request;
+      if (!link_.wait_for_request(request, std::chrono::milliseconds(20))) continue;
+      if (!equipment_.is_real) link_.capture_done(request.sequence);
+      const ResultBlock block =
+          equipment_.is_real ? answer_request(equipment_.cycle, request, link_).block : answer_at_once(request);
+      excluded_ns = static_cast<std::int64_t>(excluded(block) * 1e9);
+      link_.commit(block);
+    }
+  }
+
+  PlcLink& link_;
+  Equipment& equipment_;
+  std::atomic<bool> stop_{false};
+  std::atomic<bool> ready_{false};
+  std::thread thread_;
+};
+
+/// Reads the block `rate` times a second until told to stop.
+void poll(std::uint16_t port, int rate, const std::atomic<bool>& stop) {
+  Result<ModbusClient> client = ModbusClient::connect("127.0.0.1", port, {});
+  if (!client.ok()) return;
+  const auto period = std::chrono::microseconds(1'000'000 / rate);
+  auto next = std::chrono::steady_clock::now();
+  while (!stop) {
+    static_cast<void>(client.value().read_block());
+    next += period;
+    std::this_thread::sleep_until(next);
+  }
+}
+
+[[nodiscard]] Status measure(ModbusServer& server, Equipment& equipment, int triggers, std::vector<double>& latencies) {
+  Worker worker(server, equipment);
+  Result<ModbusClient> connected = ModbusClient::connect("127.0.0.1", server.port(), {});
+  if (!connected.ok()) return connected.status();
+  ModbusClient& plc = connected.value();
+  for (int i = 0; i < triggers; ++i) {
+    if (Status done = plc.write_request({.request_id = static_cast<std::uint16_t>(i)}); !done.ok()) return done;
+    const std::int64_t start = monotonic_ns();
+    if (Status done = plc.write_coil(coil::trigger, true); !done.ok()) return done;
+    for (;;) {
+      const Result<HandshakeOutputs> out = plc.read_outputs();
+      if (!out.ok()) return out.status();
+      if (out.value().done) break;
+    }
+    latencies.push_back(static_cast<double>(monotonic_ns() - start - worker.excluded_ns) * 1e-6);
+    if (Status done = plc.acknowledge(); !done.ok()) return done;
+  }
+  return {};
+}
+
+void print(std::vector<double> latencies) {
+  std::sort(latencies.begin(), latencies.end());
+  const auto at = [&](double share) {
+    return latencies[static_cast<std::size_t>(share * static_cast<double>(latencies.size() - 1))];
+  };
+  const double mean = std::accumulate(latencies.begin(), latencies.end(), 0.0) / static_cast<double>(latencies.size());
+  std::printf("%zu triggers: mean %.3f ms, median %.3f ms, 99%% %.3f ms, 99.9%% %.3f ms, most %.3f ms\n",
+              latencies.size(), mean, at(0.5), at(0.99), at(0.999), latencies.back());
+}
+
+[[nodiscard]] Status run(const std::string& path, int triggers, int clients, int rate) {
+  Equipment equipment;
+  if (!path.empty()) {
+    if (Status equipped = equip(path, equipment); !equipped.ok()) return equipped;
+  }
+  ServerOptions options;
+  options.bind_address = "127.0.0.1";
+  options.port = 0;
+  options.maximum_rate = 0;
+  Result<std::unique_ptr<ModbusServer>> server = ModbusServer::start(options);
+  if (!server.ok()) return server.status();
+  std::atomic<bool> stop{false};
+  std::vector<std::thread> pollers;
+  for (int i = 0; i < clients; ++i) {
+    pollers.emplace_back([&] { poll(server.value()->port(), rate, stop); });
+  }
+  std::vector<double> latencies;
+  const Status measured = measure(*server.value(), equipment, triggers, latencies);
+  stop = true;
+  for (std::thread& poller : pollers) poller.join();
+  if (measured.ok()) print(std::move(latencies));
+  return measured;
+}
+
+}  // namespace
+}  // namespace graspd
+
+int main(int argc, char** argv) {
+  CLI::App command_line("Measures an answer's time beside capture and detection");
+  std::string configuration;
+  int triggers = 10000;
+  int clients = 3;
+  int rate = 100;
+  command_line.add_option("--config", configuration, "Pick from this configuration's frames; else answer at once");
+  command_line.add_option("--triggers", triggers, "Requests")->capture_default_str();
+  command_line.add_option("--clients", clients, "Clients that read the block meanwhile")->capture_default_str();
+  command_line.add_option("--rate", rate, "Reads a second of each")->check(CLI::PositiveNumber)->capture_default_str();
+  CLI11_PARSE(command_line, argc, argv);
+  const graspd::Status status = graspd::run(configuration, triggers, clients, rate);
+  if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().data());
+  return status.ok() ? 0 : 1;
+}
