@@ -14,6 +14,8 @@ void read_memory_section(SettingsTable table, Configuration& configuration) {
 
 void read_output_section(SettingsTable table, Configuration& configuration) {
   table.read_path("picture", configuration.picture);
+  table.read_path("snapshots", configuration.snapshots);
+  table.read("snapshots_kept", configuration.snapshots_kept, 1, 1000000);
   table.finish();
 }
 

@@ -62,7 +62,9 @@ struct Configuration {
   PollerOptions plc;                                    ///< [modbus.client]; formats and timeouts as in `modbus`.
   std::size_t memory_budget = std::size_t{512} << 20U;  ///< Bytes.
   bool memory_lock = true;
-  std::string picture;  ///< Where the latest annotated picture goes; empty: nowhere.
+  std::string picture;    ///< Where the latest annotated picture goes; empty: nowhere.
+  std::string snapshots;  ///< Folder of the frames that the PLC asks to keep; empty: none are kept.
+  int snapshots_kept = 100;
 };
 
 /// Reads a configuration file. Fails with bad_configuration: file, line, key, what is wrong and what

@@ -49,6 +49,7 @@ PickSettings pick_settings(const Configuration& configuration) {
   settings.grasp = configuration.grasp.parameters;
   settings.regions = configuration.regions;
   settings.calibrated = configuration.calibrated;
+  settings.keeps_snapshots = !configuration.snapshots.empty();
   settings.minimum_score = configuration.detect.minimum_score;
   settings.deadline_ns = configuration.detect.deadline_ns;
   settings.maximum_age_ns = static_cast<std::int64_t>(static_cast<double>(configuration.camera.maximum_age) * 1e9);
@@ -66,6 +67,9 @@ Status equip(const Configuration& configuration, Equipment& equipment) {
   equipment.frames = std::move(frames).value();
   if (!configuration.picture.empty()) {
     if (Status writable = check_writable(configuration.picture); !writable.ok()) return writable;
+  }
+  if (!configuration.snapshots.empty()) {
+    if (Status ready = prepare_snapshots(configuration.snapshots); !ready.ok()) return ready;
   }
   equipment.plan =
       plan_memory(configuration, equipment.banks, equipment.frames.source->limits(), equipment.frames.bytes, baseline);
@@ -128,7 +132,13 @@ Status run_daemon(const Configuration& configuration) {
     pictures =
         std::make_unique<PictureWriter>(configuration.picture, equipment.cycle.memory, configuration.grasp.parameters);
   }
-  PickWorker worker(equipment.cycle, plc, pictures.get());
+  std::unique_ptr<SnapshotWriter> snapshots;
+  if (!configuration.snapshots.empty()) {
+    snapshots = std::make_unique<SnapshotWriter>(configuration.snapshots,
+                                                 static_cast<std::size_t>(configuration.snapshots_kept),
+                                                 equipment.cycle.memory.snapshot_frame);
+  }
+  PickWorker worker(equipment.cycle, plc, pictures.get(), snapshots.get());
   if (Status ready = worker.wait_ready(); !ready.ok()) return ready;
   notifier.ready();
   const OpenedLink& link = opened.value();

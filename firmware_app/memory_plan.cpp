@@ -16,6 +16,9 @@ double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1024.
 /// its coloured depth, a depth image for occlusion and the PNG.
 constexpr std::size_t picture_bytes_per_pixel = 40;
 
+/// The same for a snapshot: 16-bit depth, rows for the encoder and the PNG.
+constexpr std::size_t snapshot_bytes_per_pixel = 8;
+
 }  // namespace
 
 WorkingMemory carve_working_memory(Arena& arena, const WorkingCapacity& capacity) {
@@ -27,6 +30,7 @@ WorkingMemory carve_working_memory(Arena& arena, const WorkingCapacity& capacity
     memory.pictured_frame = arena.take<float>(capacity.frame_pixels, "picture");
     memory.pictured_instances = arena.take<Instance>(capacity.detect.instances, "picture");
   }
+  if (capacity.snapshots) memory.snapshot_frame = arena.take<float>(capacity.frame_pixels, "snapshot");
   return memory;
 }
 
@@ -53,6 +57,7 @@ MemoryPlan plan_memory(const Configuration& configuration, const LoadedBanks& ba
   plan.capacity.detect = fitted_capacity(configuration.detect.capacity, limits, banks.banks);
   plan.capacity.grasp = configuration.grasp.capacity;
   plan.capacity.picture = !configuration.picture.empty();
+  plan.capacity.snapshots = !configuration.snapshots.empty();
 
   Arena arena = Arena::measuring();
   static_cast<void>(carve_working_memory(arena, plan.capacity));
@@ -64,9 +69,13 @@ MemoryPlan plan_memory(const Configuration& configuration, const LoadedBanks& ba
   if (plan.capacity.picture) {
     plan.rows.push_back({"drawing the picture", plan.capacity.frame_pixels * picture_bytes_per_pixel});
   }
-  // The worker is one of the detection's threads; beside them: Modbus and, when wanted, the picture.
+  if (plan.capacity.snapshots) {
+    plan.rows.push_back({"writing snapshots", plan.capacity.frame_pixels * snapshot_bytes_per_pixel});
+  }
+  // The worker is one of the detection's threads; beside them: Modbus and, when wanted, pictures and snapshots.
   const auto threads = static_cast<std::size_t>(configuration.detect.parameters.threads) + 1 +
-                       (plan.capacity.picture ? std::size_t{1} : std::size_t{0});
+                       static_cast<std::size_t>(plan.capacity.picture) +
+                       static_cast<std::size_t>(plan.capacity.snapshots);
   plan.rows.push_back({"thread stacks", threads * thread_stack_bytes});
   plan.rows.push_back({"program and libraries", baseline});
   return plan;

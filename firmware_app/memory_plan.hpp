@@ -18,7 +18,8 @@ struct WorkingCapacity {
   std::size_t frame_pixels = 0;
   DetectCapacity detect;
   GraspCapacity grasp;
-  bool picture = false;  ///< Keep a copy of the last answer for the annotated picture.
+  bool picture = false;    ///< Keep a copy of the last answer for the annotated picture.
+  bool snapshots = false;  ///< Keep a copy of the frame for a snapshot.
 };
 
 /// All the memory that the daemon writes to between a trigger and the registers.
@@ -28,6 +29,7 @@ struct WorkingMemory {
   GraspWorkspace grasp;
   std::span<float> pictured_frame;
   std::span<Instance> pictured_instances;
+  std::span<float> snapshot_frame;
 };
 
 /// Carves it; on a measuring arena only counts.

@@ -180,7 +180,7 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
 
 Answer answer_next(PickCycle& cycle, const PlcRequest& request) {
   Capture& capture = cycle.capture;
-  if (Status served = check_served(request); !served.ok()) return failed(cycle, request, served);
+  if (Status served = check_served(request, cycle.settings); !served.ok()) return failed(cycle, request, served);
   Answer answer{begin_block(request), {}};
   if (capture.answered) put_verdict(capture, answer.block);
   if (capture.answered && capture.given < capture.picks.picks.size()) {

@@ -19,6 +19,7 @@ struct PickSettings {
   GraspParameters grasp;
   std::vector<RequestBox> regions;  ///< That a request may name, from number 1 on.
   bool calibrated = false;          ///< Poses are in the robot's frame.
+  bool keeps_snapshots = false;     ///< A request may ask to keep the frame.
   float minimum_score = -1.0F;      ///< When the PLC asks for none; negative: the bank's own.
   std::int64_t deadline_ns = 0;     ///< After the trigger; 0: none.
   std::int64_t maximum_age_ns = 0;

@@ -6,8 +6,8 @@
 
 namespace graspd {
 
-PickWorker::PickWorker(PickCycle& cycle, PlcLink& plc, PictureWriter* pictures)
-    : cycle_(cycle), plc_(plc), pictures_(pictures) {
+PickWorker::PickWorker(PickCycle& cycle, PlcLink& plc, PictureWriter* pictures, SnapshotWriter* snapshots)
+    : cycle_(cycle), plc_(plc), pictures_(pictures), snapshots_(snapshots) {
   thread_ = std::thread([this] { work(); });
 }
 
@@ -38,6 +38,7 @@ void PickWorker::work() {
     plc_.commit(answer.block);
     log_answer(answer, cycle_.source->frame_name());
     if (pictures_ != nullptr) pictures_->offer(cycle_.capture, answer);
+    if (request.save_snapshot && snapshots_ != nullptr) snapshots_->offer(cycle_.capture.frame, request.request_id);
   }
 }
 

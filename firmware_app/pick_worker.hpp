@@ -7,15 +7,17 @@
 
 #include "firmware_app/pick_cycle.hpp"
 #include "firmware_app/picture_writer.hpp"
+#include "firmware_app/snapshot_writer.hpp"
 
 namespace graspd {
 
 /// The thread that answers requests: waits for one, runs the pick cycle, commits the answer, then logs
-/// one line and offers a picture.
+/// one line and offers a picture and, where the PLC asked for it, a snapshot.
 class PickWorker {
  public:
-  /// Starts the thread, which warms up first. Everything must outlive the worker; `pictures` may be null.
-  PickWorker(PickCycle& cycle, PlcLink& plc, PictureWriter* pictures);
+  /// Starts the thread, which warms up first. Everything must outlive the worker; `pictures` may be null, `snapshots`
+  /// only if the settings say that none are kept.
+  PickWorker(PickCycle& cycle, PlcLink& plc, PictureWriter* pictures, SnapshotWriter* snapshots);
   ~PickWorker();
   PickWorker(const PickWorker&) = delete;
   PickWorker& operator=(const PickWorker&) = delete;
@@ -33,6 +35,7 @@ class PickWorker {
   PickCycle& cycle_;
   PlcLink& plc_;
   PictureWriter* pictures_;
+  SnapshotWriter* snapshots_;
   std::atomic<std::uint64_t> progress_{0};
   std::atomic<bool> stop_{false};
   std::atomic<bool> ready_{false};

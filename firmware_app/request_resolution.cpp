@@ -37,17 +37,20 @@ Status select_region(const PlcRequest& request, const PickSettings& settings, Pr
 
 }  // namespace
 
-Status check_served(const PlcRequest& request) {
+Status check_served(const PlcRequest& request, const PickSettings& settings) {
   if (!request.well_formed) return {StatusCode::bad_request, "a request register holds a value that means nothing"};
-  if (request.save_snapshot || request.avoid_last_place) {
-    return {StatusCode::bad_request, "options asks for save_snapshot or avoid_last_place, which are not served yet"};
+  if (request.save_snapshot && !settings.keeps_snapshots) {
+    return {StatusCode::bad_request, "options asks for save_snapshot, but output.snapshots is not configured"};
+  }
+  if (request.avoid_last_place) {
+    return {StatusCode::bad_request, "options asks for avoid_last_place, which is not served"};
   }
   return {};
 }
 
 Status resolve_request(const PlcRequest& request, const PickSettings& settings, std::span<const Bank> banks,
                        std::span<const Bank>& selected, DetectParameters& parameters) {
-  if (Status served = check_served(request); !served.ok()) return served;
+  if (Status served = check_served(request, settings); !served.ok()) return served;
   if (request.has_flange_pose && !is_finite(request.robot_from_flange)) {
     return {StatusCode::bad_request, "flange_pose in the request is no pose: check its numbers and the word order"};
   }

@@ -8,8 +8,9 @@
 
 namespace graspd {
 
-/// Fails with bad_request when a register holds what has no meaning, or asks for what graspd does not serve.
-[[nodiscard]] Status check_served(const PlcRequest& request);
+/// Fails with bad_request when a register holds what has no meaning, or asks for what graspd does not serve or was
+/// not configured for.
+[[nodiscard]] Status check_served(const PlcRequest& request, const PickSettings& settings);
 
 /// Turns what the PLC asked for into what the detection needs: the banks of the part asked for (all of them for
 /// part 0), and the region in `parameters`. Fails with bad_request, naming the register, when a number names nothing

@@ -1,9 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "drivers/files/atomic_file.hpp"
+#include "drivers/files/load_frame.hpp"
 #include "drivers/plc/modbus_client.hpp"
 #include "tests/drivers/plc/plc_stand_in.hpp"
 #include "tests/firmware_app/graspd_process.hpp"
@@ -82,6 +86,33 @@ TEST_F(Daemon, LeavesAPictureOfTheLatestAnswer) {
   EXPECT_GT(std::filesystem::file_size(folder_.path("latest.png")), 1000U);
   process_->terminate();
   EXPECT_EQ(process_->wait(), 0) << process_->errors();
+}
+
+TEST_F(Daemon, KeepsTheFramesThatThePlcAsksFor) {
+  start("[output]\nsnapshots = \"kept\"\nsnapshots_kept = 2\n");
+  Result<ModbusClient> client = connect();
+  ASSERT_TRUE(client.ok()) << client.status().message();
+  ClientRequest request;
+  for (request.request_id = 1; request.request_id <= 4; ++request.request_id) {
+    request.options = request.request_id == 2 ? std::uint16_t{0} : request_option::save_snapshot;
+    const Result<ResultBlock> block = client.value().request_pick(request, patience);
+    ASSERT_TRUE(block.ok()) << block.status().message();
+    EXPECT_EQ(block.value().code, ResultCode::ok);
+    if (request.options == 0) continue;
+    const std::string kept = "code=N015 snapshot kept request_id=" + std::to_string(request.request_id);
+    ASSERT_TRUE(process_->wait_for(kept, patience)) << process_->errors();
+  }
+  process_->terminate();
+  EXPECT_EQ(process_->wait(), 0) << process_->errors();
+  std::vector<std::filesystem::path> folders;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path("kept"))) folders.push_back(entry.path());
+  std::ranges::sort(folders);
+  ASSERT_EQ(folders.size(), 2U) << "of three the oldest gave way";
+  EXPECT_THAT(folders[0].string(), testing::EndsWith("_request_3"));
+  EXPECT_THAT(folders[1].string(), testing::EndsWith("_request_4"));
+  const Result<LoadedFrame> frame = load_frame(folders[0] / "depth.png", {});
+  ASSERT_TRUE(frame.ok()) << frame.status().message();
+  EXPECT_EQ(frame.value().camera.width, angle_bar_scene().camera.width);
 }
 
 TEST_F(Daemon, PollsAPlcThatIsAServer) {

@@ -164,6 +164,7 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(plc.response_timeout.count());
   GRASPD_COMPARE(memory_budget);
   GRASPD_COMPARE(memory_lock);
+  GRASPD_COMPARE(snapshots_kept);
 #undef GRASPD_COMPARE
   EXPECT_EQ(shown.modbus.bind_address, real.modbus.bind_address);
 }

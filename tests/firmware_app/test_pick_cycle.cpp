@@ -130,14 +130,6 @@ TEST(PickCycle, UnknownPartIsABadRequest) {
   PickCycleFixture fixture(angle_bar_scene());
   const Answer answer = fixture.ask(RequestKind::capture, 99);
   EXPECT_EQ(answer.block.code, ResultCode::bad_request);
-  PlcRequest unserved;
-  unserved.save_snapshot = true;
-  EXPECT_THAT(message(unserved), HasSubstr("not served"));
-  unserved.kind = RequestKind::next;
-  EXPECT_THAT(message(unserved), HasSubstr("not served"));
-  unserved = {};
-  unserved.avoid_last_place = true;
-  EXPECT_THAT(message(unserved), HasSubstr("not served"));
   EXPECT_EQ(fixture.source.sequence, 0U) << "no frame is taken for it";
   EXPECT_EQ(explained(answer), "no pick: no bank of part number 99 is loaded");
   EXPECT_EQ(fixture.ask(RequestKind::capture, 7).block.code, ResultCode::ok);
@@ -277,9 +269,9 @@ TEST(PickCycle, RequestsThatMeanNothingAreBadRequests) {
   EXPECT_THAT(message(malformed), HasSubstr("means nothing"));
   PlcRequest unserved;
   unserved.save_snapshot = true;
-  EXPECT_THAT(message(unserved), HasSubstr("not served"));
+  EXPECT_THAT(message(unserved), HasSubstr("output.snapshots is not configured"));
   unserved.kind = RequestKind::next;
-  EXPECT_THAT(message(unserved), HasSubstr("not served"));
+  EXPECT_THAT(message(unserved), HasSubstr("output.snapshots is not configured"));
   unserved = {};
   unserved.avoid_last_place = true;
   EXPECT_THAT(message(unserved), HasSubstr("not served"));

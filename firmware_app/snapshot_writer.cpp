@@ -1,0 +1,120 @@
+#include "firmware_app/snapshot_writer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "drivers/files/atomic_file.hpp"
+#include "drivers/files/frame_folder.hpp"
+#include "drivers/system/log.hpp"
+
+namespace graspd {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view prefix = "snapshot_";
+
+/// Names sort by age.
+[[nodiscard]] std::string name_for(std::uint16_t request_id) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+  const auto seconds = static_cast<std::time_t>(milliseconds / 1000);
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  std::array<char, 24> time{};
+  std::strftime(time.data(), time.size(), "%Y%m%dT%H%M%S", &utc);
+  std::array<char, 64> name{};
+  std::snprintf(name.data(), name.size(), "%s%s.%03dZ_request_%u", prefix.data(), time.data(),
+                static_cast<int>(milliseconds % 1000), unsigned{request_id});
+  return name.data();
+}
+
+}  // namespace
+
+Status prepare_snapshots(const fs::path& folder) {
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (problem) return Status::format(StatusCode::cannot_write, "%s: %s", folder.c_str(), problem.message().c_str());
+  return check_writable(folder / prefix);
+}
+
+SnapshotWriter::SnapshotWriter(fs::path folder, std::size_t kept, std::span<float> memory)
+    : folder_(std::move(folder)), kept_(kept), memory_(memory) {
+  thread_ = std::thread([this] { work(); });
+}
+
+SnapshotWriter::~SnapshotWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void SnapshotWriter::offer(const DepthFrame& frame, std::uint16_t request_id) {
+  if (frame.depth.empty()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    if (pending_) {
+      log_event(LogLevel::warning, "W014", "snapshot not kept: the last one is still being written request_id=%u",
+                unsigned{request_id});
+      return;
+    }
+    camera_ = frame.camera;
+    std::ranges::copy(frame.depth, memory_.begin());
+    request_id_ = request_id;
+    pending_ = true;
+  }
+  wake_.notify_one();
+}
+
+void SnapshotWriter::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return pending_ || stop_; });
+    if (!pending_) return;
+    lock.unlock();
+    Status written;
+    try {
+      written = write();
+    } catch (const std::exception& problem) {
+      written = Status::format(StatusCode::cannot_write, "%s", problem.what());
+    }
+    lock.lock();
+    // Said last: who reads it may ask for the next one.
+    pending_ = false;
+    if (written.ok()) {
+      log_event(LogLevel::notice, "N015", "snapshot kept request_id=%u", unsigned{request_id_});
+    } else {
+      log_event(LogLevel::warning, "W014", "snapshot not kept: %s", written.message().data());
+    }
+  }
+}
+
+Status SnapshotWriter::write() const {
+  const fs::path path = folder_ / name_for(request_id_);
+  Status written = write_frame_folder(path, {camera_, memory_.first(camera_.pixel_count()), 0, 0});
+  if (written.ok()) drop_oldest();
+  return written;
+}
+
+void SnapshotWriter::drop_oldest() const {
+  std::vector<fs::path> snapshots;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+    if (entry.path().filename().string().starts_with(prefix)) snapshots.push_back(entry.path());
+  }
+  std::ranges::sort(snapshots);
+  for (std::size_t i = 0; i + kept_ < snapshots.size(); ++i) fs::remove_all(snapshots[i]);
+}
+
+}  // namespace graspd
