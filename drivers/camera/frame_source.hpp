@@ -32,6 +32,9 @@ class FrameSource {
 
   /// A name of the last frame grabbed, for the journal.
   [[nodiscard]] virtual std::string_view frame_name() const = 0;
+
+  /// False as long as a frame asked for now could not come: the camera is not connected.
+  [[nodiscard]] virtual bool connected() const { return true; }
 };
 
 }  // namespace graspd

@@ -1,0 +1,264 @@
+#include "drivers/camera/genicam_session.hpp"
+
+#include <arv.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "drivers/system/clock.hpp"
+
+namespace graspd {
+namespace {
+
+constexpr std::int64_t slice_ns = 50'000'000;
+
+/// Taken by a heartbeat thread of Aravis.
+void note_lost(ArvDevice*, std::atomic<bool>* lost) { *lost = true; }
+
+/// When the first packet of the buffer arrived, on our clock. The exposure was over by then.
+std::int64_t arrival_ns(ArvBuffer* buffer) {
+  const std::int64_t now_real_ns = g_get_real_time() * 1000;
+  const auto arrived_real_ns = static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
+  return monotonic_ns() - std::max<std::int64_t>(0, now_real_ns - arrived_real_ns);
+}
+
+PixelBlock block_of(ArvBuffer* buffer, guint part) {
+  std::size_t size = 0;
+  const void* data = arv_buffer_get_part_data(buffer, part, &size);
+  gint padding_x = 0;
+  gint padding_y = 0;
+  arv_buffer_get_part_padding(buffer, part, &padding_x, &padding_y);
+  PixelBlock block;
+  block.format = static_cast<PixelFormat>(arv_buffer_get_part_pixel_format(buffer, part));
+  block.width = arv_buffer_get_part_width(buffer, part);
+  block.height = arv_buffer_get_part_height(buffer, part);
+  block.row_padding = static_cast<std::size_t>(std::max(padding_x, 0));
+  block.bytes = {static_cast<const std::byte*>(data), data == nullptr ? 0 : size};
+  return block;
+}
+
+bool is_confidence(ArvBuffer* buffer, guint part) {
+  const auto format = static_cast<PixelFormat>(arv_buffer_get_part_pixel_format(buffer, part));
+  return arv_buffer_get_part_data_type(buffer, part) == ARV_BUFFER_PART_DATA_TYPE_CONFIDENCE_MAP ||
+         format == PixelFormat::confidence1 || format == PixelFormat::confidence8 ||
+         format == PixelFormat::confidence16 || format == PixelFormat::confidence32f;
+}
+
+/// The part of the buffer that holds depth, and the one with confidences; -1: none.
+struct BufferParts {
+  int depth = -1;
+  int confidence = -1;
+};
+
+BufferParts find_parts(ArvBuffer* buffer, PixelFormat depth_format) {
+  BufferParts parts;
+  const guint count = arv_buffer_get_n_parts(buffer);
+  for (guint i = 0; i < count; ++i) {
+    if (is_confidence(buffer, i)) {
+      parts.confidence = static_cast<int>(i);
+    } else if (parts.depth < 0 &&
+               static_cast<PixelFormat>(arv_buffer_get_part_pixel_format(buffer, i)) == depth_format) {
+      parts.depth = static_cast<int>(i);
+    }
+  }
+  // A single image of another format is looked at too: decoding says what is wrong with it.
+  if (parts.depth < 0 && count == 1) parts.depth = 0;
+  return parts;
+}
+
+}  // namespace
+
+GenicamSession::GenicamSession(GenicamDevice device, const GenicamOptions& options)
+    : device_(std::move(device)), options_(options) {}
+
+Result<std::unique_ptr<GenicamSession>> GenicamSession::open(const GenicamOptions& options) {
+  Result<GenicamDevice> device = GenicamDevice::open(options.device);
+  if (!device.ok()) return device.status();
+  std::unique_ptr<GenicamSession> session(new GenicamSession(std::move(device).value(), options));
+  if (Status set = session->set_up(); !set.ok()) return set;
+  if (Status started = session->start_stream(); !started.ok()) return started;
+  return session;
+}
+
+GenicamSession::~GenicamSession() {
+  ArvDevice* device = arv_camera_get_device(device_.handle());
+  g_signal_handlers_disconnect_by_data(device, &lost_);
+  // A camera that is gone would be waited for with every command.
+  if (stream_ != nullptr && !lost_) arv_camera_stop_acquisition(device_.handle(), nullptr);
+  discard();
+  if (stream_ != nullptr) g_object_unref(stream_);
+}
+
+Status GenicamSession::set_up() {
+  ArvDevice* device = arv_camera_get_device(device_.handle());
+  g_signal_connect(device, "control-lost", G_CALLBACK(note_lost), &lost_);
+  // A camera that streams for a client that is gone would refuse to be set up.
+  arv_camera_stop_acquisition(device_.handle(), nullptr);
+  name_ = device_.read_text("DeviceVendorName").value_or("unknown") + " " +
+          device_.read_text("DeviceModelName").value_or("camera");
+  for (const char* node : {"DeviceSerialNumber", "DeviceID"}) {
+    const std::optional<std::string> serial = device_.read_text(node);
+    if (!serial) continue;
+    name_ += " " + *serial;
+    break;
+  }
+  if (Status set = set_up_camera(device_, options_, has_confidence_); !set.ok()) return set;
+  const Scan3dNodes nodes = read_scan3d_nodes(device_);
+  if (lost_ || nodes.width == 0) return {StatusCode::camera_lost, "the camera stopped answering"};
+  Result<Scan3dInterpretation> made = interpret_scan3d(nodes, options_.scan3d);
+  if (!made.ok()) return made.status();
+  interpretation_ = made.value();
+  if (nodes.width <= options_.limits.maximum_width && nodes.height <= options_.limits.maximum_height) return {};
+  return Status::format(StatusCode::memory_limit,
+                        "the camera sends %d x %d pixels, room was made for %d x %d: raise camera.maximum_width and "
+                        "camera.maximum_height, or choose a smaller region",
+                        nodes.width, nodes.height, options_.limits.maximum_width, options_.limits.maximum_height);
+}
+
+Status GenicamSession::start_stream() {
+  ArvCamera* camera = device_.handle();
+  const std::size_t payload = arv_camera_get_payload(camera, nullptr);
+  if (payload == 0) return {StatusCode::camera_lost, "the camera tells no PayloadSize"};
+  if (payload * genicam_buffer_count > genicam_buffer_bytes(options_.limits)) {
+    return Status::format(StatusCode::memory_limit,
+                          "the camera sends %zu bytes a frame, more than depth with confidences takes: switch other "
+                          "components off in [camera.features]",
+                          payload);
+  }
+  // Raw sockets need rights that the service does not have; plain ones do.
+  arv_camera_gv_set_stream_options(camera, ARV_GV_STREAM_OPTION_PACKET_SOCKET_DISABLED);
+  GError* problem = nullptr;
+  stream_ = arv_camera_create_stream(camera, nullptr, nullptr, &problem);
+  if (stream_ == nullptr) {
+    const Status failed = Status::format(StatusCode::camera_lost, "the camera cannot stream: %s",
+                                         problem != nullptr ? problem->message : "unknown reason");
+    g_clear_error(&problem);
+    return failed;
+  }
+  g_object_set(stream_, "packet-resend",
+               options_.packet_resend ? ARV_GV_STREAM_PACKET_RESEND_ALWAYS : ARV_GV_STREAM_PACKET_RESEND_NEVER,
+               nullptr);
+  for (std::size_t i = 0; i < genicam_buffer_count; ++i) {
+    arv_stream_push_buffer(stream_, arv_buffer_new_allocate(payload));
+  }
+  arv_camera_start_acquisition(camera, &problem);
+  if (problem == nullptr) return {};
+  const Status failed =
+      Status::format(StatusCode::camera_lost, "the camera does not start to acquire: %s", problem->message);
+  g_clear_error(&problem);
+  return failed;
+}
+
+void GenicamSession::discard() {
+  if (kept_ != nullptr) arv_stream_push_buffer(stream_, kept_);
+  kept_ = nullptr;
+}
+
+void GenicamSession::keep(ArvBuffer* buffer) {
+  discard();
+  kept_ = buffer;
+  kept_captured_ns_ = arrival_ns(buffer);
+}
+
+ArvBuffer* GenicamSession::wait_for_buffer(std::int64_t deadline_ns, const std::atomic<bool>& wanted) {
+  while (!lost_ && wanted) {
+    const std::int64_t left_ns = deadline_ns - monotonic_ns();
+    if (left_ns <= 0) break;
+    const auto wait_us = static_cast<guint64>(std::max<std::int64_t>(1, std::min(left_ns, slice_ns) / 1000));
+    if (ArvBuffer* buffer = arv_stream_timeout_pop_buffer(stream_, wait_us); buffer != nullptr) return buffer;
+  }
+  return nullptr;
+}
+
+Status GenicamSession::missing_frame() const {
+  if (lost_) return {StatusCode::camera_lost, "the camera was lost while its frame was awaited"};
+  const char* hint = options_.trigger == CameraTrigger::hardware ? "; does its trigger line get a signal?" : "";
+  return Status::format(StatusCode::camera_lost, "the camera sent no frame within %.2f s%s",
+                        static_cast<double>(options_.timeout_ns) * 1e-9, hint);
+}
+
+Status GenicamSession::accept(ArvBuffer* buffer) {
+  const ArvBufferStatus status = arv_buffer_get_status(buffer);
+  if (status == ARV_BUFFER_STATUS_SUCCESS) {
+    keep(buffer);
+    return {};
+  }
+  arv_stream_push_buffer(stream_, buffer);
+  switch (status) {
+    case ARV_BUFFER_STATUS_TIMEOUT:
+    case ARV_BUFFER_STATUS_MISSING_PACKETS: {
+      const guint64 missing = arv_stream_get_info_uint64_by_name(stream_, "n_missing_packets");
+      return Status::format(StatusCode::bad_frame,
+                            "the frame came in part: %llu packets lost since the camera was connected; check cable and "
+                            "switch, raise net.core.rmem_max, or have the camera send slower",
+                            static_cast<unsigned long long>(missing));
+    }
+    case ARV_BUFFER_STATUS_SIZE_MISMATCH:
+    case ARV_BUFFER_STATUS_WRONG_PACKET_ID:
+      changed_ = true;
+      return {StatusCode::bad_frame, "the frame has another size than the camera said"};
+    default:
+      changed_ = true;
+      return Status::format(StatusCode::bad_frame, "the frame cannot be used (Aravis' buffer status %d)",
+                            static_cast<int>(status));
+  }
+}
+
+Status GenicamSession::take(std::int64_t deadline_ns, const std::atomic<bool>& wanted) {
+  if (options_.trigger == CameraTrigger::software) {
+    // What is there already was exposed before this request.
+    discard();
+    while (ArvBuffer* old = arv_stream_try_pop_buffer(stream_)) arv_stream_push_buffer(stream_, old);
+    if (Status triggered = device_.execute("TriggerSoftware"); !triggered.ok()) {
+      lost_ = true;
+      return triggered;
+    }
+  } else {
+    idle(0);
+    if (kept_ != nullptr && monotonic_ns() - kept_captured_ns_ <= options_.maximum_age_ns) return {};
+    discard();
+  }
+  ArvBuffer* buffer = wait_for_buffer(deadline_ns, wanted);
+  if (buffer != nullptr) return accept(buffer);
+  // Its frame may still come, and must not be taken for that of the next request.
+  Status missing = missing_frame();
+  lost_ = true;
+  return missing;
+}
+
+void GenicamSession::idle(std::int64_t duration_ns) {
+  ArvBuffer* buffer = duration_ns > 0 ? arv_stream_timeout_pop_buffer(stream_, static_cast<guint64>(duration_ns / 1000))
+                                      : arv_stream_try_pop_buffer(stream_);
+  for (; buffer != nullptr; buffer = arv_stream_try_pop_buffer(stream_)) static_cast<void>(accept(buffer));
+}
+
+Status GenicamSession::decode(std::span<float> storage, DepthFrame& frame) {
+  const Camera& camera = interpretation_.camera;
+  const BufferParts parts = find_parts(kept_, interpretation_.decoding.format);
+  if (parts.depth < 0) {
+    discard();
+    return Status::format(StatusCode::bad_frame, "the frame has no part of %s",
+                          pixel_format_name(interpretation_.decoding.format));
+  }
+  const PixelBlock block = block_of(kept_, static_cast<guint>(parts.depth));
+  Status decoded;
+  if (block.width != camera.width || block.height != camera.height) {
+    changed_ = true;
+    decoded = Status::format(StatusCode::bad_frame,
+                             "the frame has %d x %d pixels, but Width and Height were %d and %d; they are read again",
+                             block.width, block.height, camera.width, camera.height);
+  } else {
+    decoded = decode_depth(interpretation_.decoding, block, storage);
+    if (!decoded.ok()) changed_ = true;
+  }
+  if (decoded.ok() && has_confidence_ && parts.confidence >= 0) {
+    decoded = apply_confidence(block_of(kept_, static_cast<guint>(parts.confidence)), camera, storage);
+  }
+  if (decoded.ok()) {
+    frame = {camera, storage.first(camera.pixel_count()), kept_captured_ns_, ++frames_};
+  }
+  discard();
+  return decoded;
+}
+
+}  // namespace graspd

@@ -1,0 +1,270 @@
+#include "drivers/camera/simulated_camera.hpp"
+
+#include <arpa/inet.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+#include "drivers/camera/simulated_registers.hpp"
+#include "drivers/system/clock.hpp"
+
+namespace graspd {
+
+namespace reg = simulated_register;
+
+namespace {
+
+constexpr std::uint16_t control_port = 3956;
+/// Of a packet with its headers: fits every Ethernet, and on the loopback fewer packets are faster.
+constexpr std::uint32_t ethernet_packet_bytes = 1500;
+constexpr std::uint32_t loopback_packet_bytes = 9000;
+/// As many bytes go out at once, then the client gets time to take them: its socket holds no more for sure.
+constexpr std::size_t burst_bytes = 64 * 1024;
+
+FileDescriptor bound_socket(const in_addr& address, std::uint16_t port, bool shared) {
+  FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  const int yes = 1;
+  if (shared) ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_addr = address;
+  place.sin_port = htons(port);
+  if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&place), sizeof place) != 0) {
+    const int reason = errno;
+    static_cast<void>(socket.close());
+    errno = reason;
+  }
+  return socket;
+}
+
+bool is_loopback(const std::string& address) { return address.starts_with("127."); }
+
+Status check_frames(const std::vector<LoadedFrame>& frames) {
+  if (frames.empty()) return {StatusCode::bad_frame, "there is no frame to play"};
+  const Camera& first = frames.front().camera;
+  for (const LoadedFrame& frame : frames) {
+    const Camera& camera = frame.camera;
+    if (camera.width != first.width || camera.height != first.height || camera.fx != first.fx ||
+        camera.cx != first.cx || camera.cy != first.cy) {
+      return Status::format(StatusCode::bad_frame, "%s: is of another camera than %s: play them apart",
+                            frame.name.c_str(), frames.front().name.c_str());
+    }
+  }
+  if (first.fx == first.fy) return {};
+  return Status::format(StatusCode::bad_frame,
+                        "%s: has focal lengths of %g and %g pixels, but Scan3dFocalLength is one number for both",
+                        frames.front().name.c_str(), static_cast<double>(first.fx), static_cast<double>(first.fy));
+}
+
+}  // namespace
+
+Result<SimulatedCamera::Sockets> SimulatedCamera::open_sockets(const std::string& address) {
+  in_addr own{};
+  if (::inet_pton(AF_INET, address.c_str(), &own) != 1) {
+    return Status::format(StatusCode::bad_request, "%s is no IPv4 address", address.c_str());
+  }
+  FileDescriptor control = bound_socket(own, control_port, false);
+  if (!control.valid()) {
+    return Status::format(StatusCode::address_in_use, "%s: a camera cannot listen there: %s", address.c_str(),
+                          std::strerror(errno));
+  }
+  in_addr everybody{};
+  everybody.s_addr = htonl(INADDR_BROADCAST);
+  return Sockets{std::move(control), bound_socket(everybody, control_port, true), bound_socket(own, 0, false)};
+}
+
+Result<std::unique_ptr<SimulatedCamera>> SimulatedCamera::start(const SimulatedCameraOptions& options,
+                                                                std::vector<LoadedFrame> frames) {
+  if (Status playable = check_frames(frames); !playable.ok()) return playable;
+  Result<Sockets> sockets = open_sockets(options.address);
+  if (!sockets.ok()) return sockets.status();
+  return std::unique_ptr<SimulatedCamera>(new SimulatedCamera(options, std::move(frames), std::move(sockets).value()));
+}
+
+SimulatedCamera::SimulatedCamera(const SimulatedCameraOptions& options, std::vector<LoadedFrame> frames,
+                                 Sockets sockets)
+    : options_(options),
+      frames_(std::move(frames)),
+      description_(simulated_camera_xml()),
+      registers_(reg::end),
+      sockets_(std::move(sockets)) {
+  set_up_registers();
+  thread_ = std::thread([this] { work(); });
+}
+
+SimulatedCamera::~SimulatedCamera() {
+  stop_ = true;
+  thread_.join();
+}
+
+void SimulatedCamera::set_region(int width, int height) {
+  region_ = static_cast<std::uint64_t>(width) << 32U | static_cast<std::uint64_t>(height);
+}
+
+void SimulatedCamera::set_up_registers() {
+  put(reg::version, 2U << 16U);
+  put(reg::device_mode, 1U << 31U | 1U);
+  put(reg::mac_address, 0x0200);
+  put(reg::mac_address + 4, 0x00000001);
+  in_addr own{};
+  ::inet_pton(AF_INET, options_.address.c_str(), &own);
+  put(reg::current_address, ntohl(own.s_addr));
+  put_text(reg::manufacturer_name, 32, "graspd");
+  put_text(reg::model_name, 32, "Simulated3DCamera");
+  put_text(reg::device_version, 32, "1");
+  put_text(reg::serial_number, 16, options_.serial);
+  char url[96];
+  std::snprintf(url, sizeof url, "Local:graspd-simulated-camera.xml;%x;%zx", static_cast<unsigned>(reg::description),
+                description_.size());
+  put_text(reg::description_url, 512, url);
+  put(reg::network_interface_count, 1);
+  put(reg::stream_channel_count, 1);
+  put(reg::capability, reg::capability_write_memory | (options_.answers_resend ? reg::capability_resend : 0));
+  put(reg::heartbeat_timeout, 3000);
+  put(reg::tick_frequency_low, 1'000'000'000);
+  put(reg::stream_packet_size, is_loopback(options_.address) ? loopback_packet_bytes : ethernet_packet_bytes);
+  put(reg::stream_capability, reg::stream_multipart);
+
+  const Camera& camera = frames_.front().camera;
+  set_region(camera.width, camera.height);
+  put(reg::pixel_format, static_cast<std::uint32_t>(options_.encoding.format));
+  put(reg::output_mode, static_cast<std::uint32_t>(options_.encoding.disparity ? SimulatedOutputMode::disparity_c
+                                                                               : SimulatedOutputMode::calibrated_c));
+  put(reg::frame_period, 100'000);
+  put(reg::component_enable, 1);
+  put(reg::invalid_flag, 1);
+  put_real(reg::exposure_time, 10'000);
+  put_real(reg::focal_length, static_cast<double>(camera.fx));
+  put_real(reg::principal_point_u, static_cast<double>(camera.cx));
+  put_real(reg::principal_point_v, static_cast<double>(camera.cy));
+  put_real(reg::baseline, options_.encoding.baseline);
+  refresh();
+}
+
+DepthEncoding SimulatedCamera::encoding() const {
+  DepthEncoding now = options_.encoding;
+  now.format = static_cast<PixelFormat>(get(reg::pixel_format));
+  now.disparity = get(reg::output_mode) == static_cast<std::uint32_t>(SimulatedOutputMode::disparity_c);
+  return now;
+}
+
+/// Brings the registers up to date that follow from others.
+void SimulatedCamera::refresh() {
+  const std::uint64_t region = region_;
+  put(reg::width, static_cast<std::uint32_t>(region >> 32U));
+  put(reg::height, static_cast<std::uint32_t>(region));
+  const DepthEncoding now = encoding();
+  put_real(reg::scale, coordinate_scale(now));
+  put(reg::distance_unit, now.disparity ? 1 : 0);
+  const std::uint32_t pixels = get(reg::width) * get(reg::height);
+  const std::uint32_t confidence = get(reg::component_enable + 4) != 0 ? pixels : 0;
+  put(reg::payload_size, pixels * static_cast<std::uint32_t>(bytes_per_pixel(now.format)) + confidence);
+}
+
+void SimulatedCamera::work() {
+  while (!stop_) {
+    answer_controls(1);
+    refresh();
+    if (frame_is_due()) send_frame();
+  }
+}
+
+bool SimulatedCamera::frame_is_due() {
+  const bool line = line_.exchange(false);
+  if (get(reg::acquisition) == 0 || !controller_) return false;
+  if (get(reg::trigger_mode) != 0) {
+    const bool software = get(reg::trigger_source) == 1;
+    const bool due = software ? std::exchange(triggered_, false) : line;
+    return due && !deaf_;
+  }
+  if (monotonic_ns() < next_frame_ns_) return false;
+  next_frame_ns_ = monotonic_ns() + std::int64_t{1000} * std::max<std::uint32_t>(get(reg::frame_period), 1000);
+  return !deaf_;
+}
+
+sockaddr_in SimulatedCamera::stream_target() const {
+  sockaddr_in target{};
+  target.sin_family = AF_INET;
+  target.sin_addr.s_addr = htonl(get(reg::stream_address));
+  target.sin_port = htons(static_cast<std::uint16_t>(get(reg::stream_port)));
+  return target;
+}
+
+void SimulatedCamera::send_frame() {
+  LoadedFrame& played = frames_[next_frame_++ % frames_.size()];
+  const auto width = static_cast<int>(get(reg::width));
+  const auto height = static_cast<int>(get(reg::height));
+  const DepthEncoding now = encoding();
+  std::vector<StreamPart> parts;
+  parts.push_back({now.format, width, height, false, encode_depth(played.frame(), width, height, now)});
+  const bool multipart = (get(reg::stream_configuration) & reg::stream_multipart) != 0;
+  if (multipart && get(reg::component_enable + 4) != 0) {
+    parts.push_back({PixelFormat::confidence8, width, height, true,
+                     encode_confidence(played.frame(), width, height, options_.sure_up_to)});
+  }
+  const std::int64_t exposed_ns = monotonic_ns() + options_.exposure_ns;
+  while (monotonic_ns() < exposed_ns && !stop_) answer_controls(1);
+  frame_id_ = frame_id_ == 0xFFFF ? std::uint16_t{1} : static_cast<std::uint16_t>(frame_id_ + 1);
+  frame_.emplace(frame_id_, static_cast<std::uint64_t>(monotonic_ns()), std::move(parts),
+                 get(reg::stream_packet_size) & 0xFFFFU, truncated_);
+  std::size_t burst = 0;
+  for (std::uint32_t i = 0; i < frame_->packet_count() && !stop_ && get(reg::acquisition) != 0; ++i) {
+    send_packet(i);
+    burst += packet_.size();
+    if (burst < burst_bytes) continue;
+    burst = 0;
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+    answer_controls(0);
+  }
+  ++frames_sent_;
+}
+
+void SimulatedCamera::send_packet(std::uint32_t index) {
+  frame_->make_packet(index, packet_);
+  if (options_.lost_packets > 0 &&
+      static_cast<double>(random_()) / static_cast<double>(std::minstd_rand::max()) < options_.lost_packets) {
+    ++packets_lost_;
+    return;
+  }
+  const sockaddr_in target = stream_target();
+  ::sendto(sockets_.stream.number(), packet_.data(), packet_.size(), 0, reinterpret_cast<const sockaddr*>(&target),
+           sizeof target);
+}
+
+void SimulatedCamera::send_test_packet() {
+  constexpr std::size_t ip_and_udp_bytes = 28;
+  const std::size_t size = get(reg::stream_packet_size) & 0xFFFFU;
+  packet_.assign(size > ip_and_udp_bytes ? size - ip_and_udp_bytes : 1, std::byte{0});
+  const sockaddr_in target = stream_target();
+  ::sendto(sockets_.stream.number(), packet_.data(), packet_.size(), 0, reinterpret_cast<const sockaddr*>(&target),
+           sizeof target);
+}
+
+std::uint32_t SimulatedCamera::get(std::uint32_t address) const {
+  std::uint32_t value = 0;
+  std::memcpy(&value, registers_.data() + address, sizeof value);
+  return ntohl(value);
+}
+
+void SimulatedCamera::put(std::uint32_t address, std::uint32_t value) {
+  value = htonl(value);
+  std::memcpy(registers_.data() + address, &value, sizeof value);
+}
+
+void SimulatedCamera::put_real(std::uint32_t address, double value) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  put(address, static_cast<std::uint32_t>(bits >> 32U));
+  put(address + 4, static_cast<std::uint32_t>(bits));
+}
+
+void SimulatedCamera::put_text(std::uint32_t address, std::size_t size, std::string_view text) {
+  std::memcpy(registers_.data() + address, text.data(), std::min(text.size(), size - 1));
+}
+
+}  // namespace graspd
