@@ -34,9 +34,9 @@ Status check(const std::string& path) {
   const Result<LoadedBanks> banks = load_banks(configuration.banks);
   if (!banks.ok()) return banks.status();
   print_banks(banks.value());
-  const Result<OpenedSource> frames = open_source(configuration.camera);
+  const Result<OpenedSource> frames = open_source(configuration.camera, false);
   if (!frames.ok()) return frames.status();
-  const FrameLimits limits = frames.value().source->limits();
+  const FrameLimits limits = frames.value().limits;
   std::printf("frames         up to %d x %d pixels\n", limits.maximum_width, limits.maximum_height);
   if (!configuration.picture.empty()) {
     if (Status writable = check_writable(configuration.picture); !writable.ok()) return writable;

@@ -65,6 +65,7 @@ int run_command_line(int argument_count, const char* const* arguments) {
   app.set_version_flag("--version", "graspd " GRASPD_VERSION);
   app.require_subcommand(1);
   add_run_command(app, outcome);
+  add_record_command(app, outcome);
   add_detect_command(app, outcome);
   CLI::App* bank = app.add_subcommand("bank", "Make banks and look into them");
   bank->require_subcommand(1);
@@ -72,6 +73,8 @@ int run_command_line(int argument_count, const char* const* arguments) {
   add_bank_show_command(*bank, outcome);
   add_validate_command(app, outcome);
   add_check_command(app, outcome);
+  add_camera_commands(app, outcome);
+  add_simulate_command(app, outcome);
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::CallForHelp&) {

@@ -1,5 +1,8 @@
 #include "firmware_app/configuration.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "drivers/plc/register_map.hpp"
 #include "firmware_app/configuration_sections.hpp"
 
@@ -16,6 +19,16 @@ void read_output_section(SettingsTable table, Configuration& configuration) {
   table.read_path("picture", configuration.picture);
   table.read_path("snapshots", configuration.snapshots);
   table.read("snapshots_kept", configuration.snapshots_kept, 1, 1000000);
+  table.finish();
+}
+
+void read_record_section(SettingsTable table, RecordSettings& record) {
+  constexpr std::array occasions{NamedValue<RecordWhen>{"failure", RecordWhen::failure},
+                                 NamedValue<RecordWhen>{"always", RecordWhen::always}};
+  table.read_path("folder", record.folder);
+  table.read_choice<RecordWhen>("when", record.when, occasions);
+  table.read("maximum_frames", record.maximum_frames, 1, 100000);
+  table.read_bytes("maximum_bytes", record.maximum_bytes);
   table.finish();
 }
 
@@ -46,7 +59,13 @@ Result<Configuration> read_configuration(const std::string& path) {
   read_modbus_section(root.table("modbus"), configuration);
   read_memory_section(root.table("memory"), configuration);
   read_output_section(root.table("output"), configuration);
+  read_record_section(root.table("record"), configuration.record);
   root.finish();
+  // A frame that comes after the answer is due helps nobody.
+  if (configuration.detect.deadline_ns > 0) {
+    std::int64_t& timeout_ns = configuration.camera.genicam.timeout_ns;
+    timeout_ns = std::min(timeout_ns, configuration.detect.deadline_ns);
+  }
   if (!file.problem.ok()) return file.problem;
   return configuration;
 }

@@ -9,21 +9,26 @@
 #include "core/geometry/rigid_transform.hpp"
 #include "core/grasp/parameters.hpp"
 #include "core/status.hpp"
+#include "drivers/camera/genicam_setup.hpp"
 #include "drivers/camera/recorded_source.hpp"
 #include "drivers/plc/modbus_poller.hpp"
 #include "drivers/plc/modbus_server.hpp"
+#include "firmware_app/record_folder.hpp"
 
 namespace graspd {
 
 /// Where depth frames come from.
 enum class CameraKind : std::uint8_t {
   recorded,  ///< Files, played over and over.
+  genicam,   ///< A GenICam camera on the network.
 };
 
 /// [camera]
 struct CameraSettings {
   CameraKind kind = CameraKind::recorded;
   RecordedSourceOptions recorded;
+  GenicamOptions genicam;
+  std::string empty_bin;     ///< A frame of the bin without parts; empty: none.
   float maximum_age = 1.0F;  ///< Seconds between exposure and grabbing; an older frame is not used.
 };
 
@@ -62,6 +67,7 @@ struct Configuration {
   PollerOptions plc;                                    ///< [modbus.client]; formats and timeouts as in `modbus`.
   std::size_t memory_budget = std::size_t{512} << 20U;  ///< Bytes.
   bool memory_lock = true;
+  RecordSettings record;
   std::string picture;    ///< Where the latest annotated picture goes; empty: nowhere.
   std::string snapshots;  ///< Folder of the frames that the PLC asks to keep; empty: none are kept.
   int snapshots_kept = 100;

@@ -49,7 +49,8 @@ bool read_transform(SettingsTable& table, std::string_view key, RigidTransform& 
 }  // namespace
 
 void read_camera_section(SettingsTable table, CameraSettings& camera) {
-  constexpr std::array kinds{NamedValue<CameraKind>{"recorded", CameraKind::recorded}};
+  constexpr std::array kinds{NamedValue<CameraKind>{"recorded", CameraKind::recorded},
+                             NamedValue<CameraKind>{"genicam", CameraKind::genicam}};
   constexpr std::array units{NamedValue<LengthUnit>{"mm", LengthUnit::millimetres},
                              NamedValue<LengthUnit>{"m", LengthUnit::metres}};
   constexpr std::array axes{NamedValue<CameraAxes>{"opencv", CameraAxes::opencv},
@@ -57,22 +58,25 @@ void read_camera_section(SettingsTable table, CameraSettings& camera) {
   RecordedSourceOptions& recorded = camera.recorded;
   std::string path;
   std::string camera_file;
-  std::string empty_bin;
-  table.require("source", "say where frames come from: source = \"recorded\"");
-  table.require("path", "name the recorded frames: a BOP scene folder, a folder of frames or one frame");
+  table.require("source", "say where frames come from: source = \"genicam\" or \"recorded\"");
   table.read_choice<CameraKind>("source", camera.kind, kinds);
+  if (camera.kind == CameraKind::recorded) {
+    table.require("path", "name the recorded frames: a BOP scene folder, a folder of frames or one frame");
+  }
   table.read_path("path", path);
   table.read("images", recorded.images, 0, 999999);
   table.read_path("camera_file", camera_file);
-  table.read_path("empty_bin", empty_bin);
+  table.read_path("empty_bin", camera.empty_bin);
   table.read_choice<LengthUnit>("units", recorded.files.cloud_unit, units);
   table.read_choice<CameraAxes>("axes", recorded.files.cloud_axes, axes);
   table.read_bytes("memory", recorded.maximum_bytes);
   table.read("maximum_age", camera.maximum_age, 0.01, 3600);
+  read_genicam_keys(table, camera.genicam);
   table.finish();
+  camera.genicam.maximum_age_ns = static_cast<std::int64_t>(static_cast<double>(camera.maximum_age) * 1e9);
   recorded.path = path;
   recorded.files.camera_file = camera_file;
-  recorded.files.empty_file = empty_bin;
+  recorded.files.empty_file = camera.empty_bin;
 }
 
 void read_calibration_section(SettingsTable table, Configuration& configuration) {

@@ -7,6 +7,8 @@ namespace graspd {
 
 /// Each reads one section of the configuration file; complaints are noted in the table's file.
 void read_camera_section(SettingsTable table, CameraSettings& camera);
+/// The keys of [camera] that are for GenICam cameras.
+void read_genicam_keys(SettingsTable& table, GenicamOptions& genicam);
 void read_calibration_section(SettingsTable table, Configuration& configuration);
 /// `robot_from_camera` must be known before: [detect.box] is given in the robot's frame.
 void read_detect_section(SettingsTable table, const RigidTransform& robot_from_camera, DetectSettings& detect);

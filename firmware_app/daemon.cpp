@@ -62,7 +62,7 @@ Status equip(const Configuration& configuration, Equipment& equipment) {
   Result<LoadedBanks> banks = load_banks(configuration.banks);
   if (!banks.ok()) return banks.status();
   equipment.banks = std::move(banks).value();
-  Result<OpenedSource> frames = open_source(configuration.camera);
+  Result<OpenedSource> frames = open_source(configuration.camera, true);
   if (!frames.ok()) return frames.status();
   equipment.frames = std::move(frames).value();
   if (!configuration.picture.empty()) {
@@ -118,8 +118,8 @@ Status run_daemon(const Configuration& configuration) {
   if (!signals.ok()) return signals.status();
   ServiceNotifier notifier;
   Equipment equipment;
-  if (Status equipped = equip(configuration, equipment); !equipped.ok()) return equipped;
   if (Status limited = limit_thread_stacks(); !limited.ok()) return limited;
+  if (Status equipped = equip(configuration, equipment); !equipped.ok()) return equipped;
   Result<OpenedLink> opened = open_plc_link(configuration);
   if (!opened.ok()) return opened.status();
   PlcLink& plc = *opened.value().link;
@@ -138,7 +138,15 @@ Status run_daemon(const Configuration& configuration) {
                                                  static_cast<std::size_t>(configuration.snapshots_kept),
                                                  equipment.cycle.memory.snapshot_frame);
   }
-  PickWorker worker(equipment.cycle, plc, pictures.get(), snapshots.get());
+  std::unique_ptr<RecordWriter> records;
+  if (!configuration.record.folder.empty()) {
+    Result<RecordFolder> folder = RecordFolder::open(configuration.record);
+    if (!folder.ok()) return folder.status();
+    const WorkingCapacity& capacity = equipment.plan.capacity;
+    records = std::make_unique<RecordWriter>(std::move(folder).value(), configuration.record.when, configuration.path,
+                                             equipment.banks, capacity.frame_pixels, recorded_instances(capacity));
+  }
+  PickWorker worker(equipment.cycle, plc, {pictures.get(), snapshots.get(), records.get()});
   if (Status ready = worker.wait_ready(); !ready.ok()) return ready;
   notifier.ready();
   const OpenedLink& link = opened.value();

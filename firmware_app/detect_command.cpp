@@ -9,6 +9,7 @@
 #include "drivers/files/load_frame.hpp"
 #include "drivers/system/clock.hpp"
 #include "firmware_app/commands.hpp"
+#include "firmware_app/configuration.hpp"
 #include "firmware_app/detection_report.hpp"
 #include "firmware_app/detection_session.hpp"
 #include "firmware_app/loaded_banks.hpp"
@@ -29,6 +30,8 @@ struct DetectOptions {
   std::string json;
   std::string picture;
   bool rejected = false;
+  bool replayable = false;
+  std::string configuration;
 };
 
 Result<LoadedFrame> read_frame(const DetectOptions& options) {
@@ -61,18 +64,26 @@ Status detect_frame(const DetectOptions& options) {
   DetectionSession session;
   session.fit({frame.camera.width, frame.camera.height}, banks.value().banks, options.threads);
   DetectParameters parameters;
+  float minimum_score = options.minimum_score;
+  if (!options.configuration.empty()) {
+    const Result<Configuration> configuration = read_configuration(options.configuration);
+    if (!configuration.ok()) return configuration.status();
+    parameters = configuration.value().detect.parameters;
+    if (minimum_score < 0) minimum_score = configuration.value().detect.minimum_score;
+  }
   parameters.threads = options.threads;
   DetectRequest request;
   request.banks = banks.value().banks;
   if (!options.no_background && !file.empty_depth.empty()) request.empty_bin = file.empty_bin();
-  request.minimum_score = options.minimum_score;
+  request.minimum_score = minimum_score;
   request.now_ns = &monotonic_ns;
   Detections detections;
   const std::int64_t start = monotonic_ns();
   if (Status detected = session.run(frame, request, parameters, detections); !detected.ok()) return detected;
   const double seconds = static_cast<double>(monotonic_ns() - start) * 1e-9;
 
-  const DetectionReport report{file.name, &frame, banks.value().banks, &detections, seconds, options.rejected};
+  const DetectionReport report{file.name, &frame,           banks.value().banks, &detections,
+                               seconds,   options.rejected, options.replayable};
   if (options.json == "-") {
     std::fputs(report_as_json(report).c_str(), stdout);
   } else {
@@ -111,6 +122,9 @@ void add_detect_command(CLI::App& command_line, Status& outcome) {
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--json", options->json, "Write the result as JSON into this file; - for stdout");
   command->add_option("--picture", options->picture, "Write the frame with the instances over it into this PNG");
+  command->add_option("--config", options->configuration, "Detect as [detect] of this configuration file says");
+  command->add_flag("--replayable", options->replayable,
+                    "JSON without the frame's name and times, as recordings hold it");
   command->add_flag("--rejected", options->rejected, "List every rejected hypothesis with its reason");
   command->footer(
       "Prints every instance with its pose (camera from part, millimetres), the figures on which\n"

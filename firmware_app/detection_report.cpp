@@ -161,10 +161,13 @@ std::string report_as_json(const DetectionReport& report) {
                    {"stage_seconds", Json::object()},
                    {"rejections", Json::object()},
                    {"instances", Json::array()}};
+  if (report.replayable) {
+    for (const char* key : {"frame", "seconds", "stage_seconds"}) document.erase(key);
+  }
   for (const auto& [bit, name] : flag_list) {
     if ((detections.flags & bit) != 0) document["flags"].push_back(name);
   }
-  for (std::size_t i = 0; i < stage_count; ++i) {
+  for (std::size_t i = 0; i < stage_count && !report.replayable; ++i) {
     document["stage_seconds"][stage_name(static_cast<Stage>(i))] = static_cast<double>(detections.stage_ns[i]) * 1e-9;
   }
   for (std::size_t i = 1; i < rejection_count; ++i) {

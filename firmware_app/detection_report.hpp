@@ -20,6 +20,7 @@ struct DetectionReport {
   const Detections* detections = nullptr;
   double seconds = 0;          ///< From depth in memory to verified instances.
   bool with_rejected = false;  ///< List every hypothesis that was judged and rejected, too.
+  bool replayable = false;     ///< JSON without the frame's name and times, which differ from run to run.
 };
 
 /// Tables for a person: instances with poses (millimetres) and evidence, rejections by reason, times.

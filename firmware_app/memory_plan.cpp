@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "firmware_app/detection_session.hpp"
+#include "firmware_app/record_writer.hpp"
 
 namespace graspd {
 namespace {
@@ -32,6 +33,10 @@ WorkingMemory carve_working_memory(Arena& arena, const WorkingCapacity& capacity
   }
   if (capacity.snapshots) memory.snapshot_frame = arena.take<float>(capacity.frame_pixels, "snapshot");
   return memory;
+}
+
+std::size_t recorded_instances(const WorkingCapacity& capacity) {
+  return std::size_t{capacity.detect.instances} + capacity.detect.judged;
 }
 
 std::size_t MemoryPlan::total() const {
@@ -65,17 +70,22 @@ MemoryPlan plan_memory(const Configuration& configuration, const LoadedBanks& ba
   for (const ArenaOwner& owner : arena.owners())
     plan.rows.push_back({"arena: " + std::string(owner.name), owner.bytes});
   plan.rows.push_back({"banks (mapped, shared)", banks.mapped_bytes()});
-  if (recorded_bytes > 0) plan.rows.push_back({"recorded frames", recorded_bytes});
+  if (recorded_bytes > 0) plan.rows.push_back({"camera or recorded frames", recorded_bytes});
   if (plan.capacity.picture) {
     plan.rows.push_back({"drawing the picture", plan.capacity.frame_pixels * picture_bytes_per_pixel});
   }
   if (plan.capacity.snapshots) {
     plan.rows.push_back({"writing snapshots", plan.capacity.frame_pixels * snapshot_bytes_per_pixel});
   }
-  // The worker is one of the detection's threads; beside them: Modbus and, when wanted, pictures and snapshots.
-  const auto threads = static_cast<std::size_t>(configuration.detect.parameters.threads) + 1 +
-                       static_cast<std::size_t>(plan.capacity.picture) +
-                       static_cast<std::size_t>(plan.capacity.snapshots);
+  const bool records = !configuration.record.folder.empty();
+  if (records) {
+    plan.rows.push_back({"recording", record_bytes(plan.capacity.frame_pixels, recorded_instances(plan.capacity))});
+  }
+  // The worker is one of the detection's threads; beside them: Modbus, when wanted pictures, snapshots and recording,
+  // and the camera with Aravis' two.
+  const std::size_t threads = static_cast<std::size_t>(configuration.detect.parameters.threads) + 1 +
+                              (plan.capacity.picture ? 1U : 0U) + (plan.capacity.snapshots ? 1U : 0U) +
+                              (records ? 1U : 0U) + (configuration.camera.kind == CameraKind::genicam ? 3U : 0U);
   plan.rows.push_back({"thread stacks", threads * thread_stack_bytes});
   plan.rows.push_back({"program and libraries", baseline});
   return plan;

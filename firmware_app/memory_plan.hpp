@@ -54,6 +54,9 @@ struct MemoryPlan {
 /// Stack of each thread of the daemon. Small, since a locked stack is resident whether used or not.
 inline constexpr std::size_t thread_stack_bytes = std::size_t{2} << 20U;
 
+/// Room for the instances of one answer, found or rejected.
+[[nodiscard]] std::size_t recorded_instances(const WorkingCapacity& capacity);
+
 /// Plans the memory of `graspd run` for this configuration. `baseline` is resident_bytes() of the bare
 /// process, `recorded_bytes` what a recorded source keeps.
 [[nodiscard]] MemoryPlan plan_memory(const Configuration& configuration, const LoadedBanks& banks,

@@ -6,8 +6,8 @@
 
 namespace graspd {
 
-PickWorker::PickWorker(PickCycle& cycle, PlcLink& plc, PictureWriter* pictures, SnapshotWriter* snapshots)
-    : cycle_(cycle), plc_(plc), pictures_(pictures), snapshots_(snapshots) {
+PickWorker::PickWorker(PickCycle& cycle, PlcLink& plc, AnswerWriters writers)
+    : cycle_(cycle), plc_(plc), writers_(writers) {
   thread_ = std::thread([this] { work(); });
 }
 
@@ -26,19 +26,25 @@ void PickWorker::stop() {
 void PickWorker::work() {
   readiness_ = warm_up(cycle_);
   plc_.set_model_loaded(readiness_.ok());
-  plc_.set_camera_ok(readiness_.ok());
+  plc_.set_camera_ok(readiness_.ok() && cycle_.source->connected());
   ready_ = true;
   ready_.notify_all();
   if (!readiness_.ok()) return;
   while (!stop_) {
     progress_.fetch_add(1, std::memory_order_relaxed);
     PlcRequest request;
-    if (!plc_.wait_for_request(request, std::chrono::milliseconds(200))) continue;
+    if (!plc_.wait_for_request(request, std::chrono::milliseconds(200))) {
+      plc_.set_camera_ok(cycle_.source->connected());
+      continue;
+    }
     const Answer answer = answer_request(cycle_, request, plc_);
     plc_.commit(answer.block);
     log_answer(answer, cycle_.source->frame_name());
-    if (pictures_ != nullptr) pictures_->offer(cycle_.capture, answer);
-    if (request.save_snapshot && snapshots_ != nullptr) snapshots_->offer(cycle_.capture.frame, request.request_id);
+    if (writers_.pictures != nullptr) writers_.pictures->offer(cycle_.capture, answer);
+    if (request.save_snapshot && writers_.snapshots != nullptr)
+      writers_.snapshots->offer(cycle_.capture.frame, request.request_id);
+    if (writers_.records != nullptr)
+      writers_.records->offer(cycle_.capture, request, answer, cycle_.source->empty_bin());
   }
 }
 

@@ -7,17 +7,25 @@
 
 #include "firmware_app/pick_cycle.hpp"
 #include "firmware_app/picture_writer.hpp"
+#include "firmware_app/record_writer.hpp"
 #include "firmware_app/snapshot_writer.hpp"
 
 namespace graspd {
 
+/// What looks at a request after the PLC has its answer; all may be null, `snapshots` only if the settings say that
+/// none are kept.
+struct AnswerWriters {
+  PictureWriter* pictures = nullptr;
+  SnapshotWriter* snapshots = nullptr;
+  RecordWriter* records = nullptr;
+};
+
 /// The thread that answers requests: waits for one, runs the pick cycle, commits the answer, then logs
-/// one line and offers a picture and, where the PLC asked for it, a snapshot.
+/// one line and offers a picture, where the PLC asked for it a snapshot, and a recording.
 class PickWorker {
  public:
-  /// Starts the thread, which warms up first. Everything must outlive the worker; `pictures` may be null, `snapshots`
-  /// only if the settings say that none are kept.
-  PickWorker(PickCycle& cycle, PlcLink& plc, PictureWriter* pictures, SnapshotWriter* snapshots);
+  /// Starts the thread, which warms up first. Everything must outlive the worker.
+  PickWorker(PickCycle& cycle, PlcLink& plc, AnswerWriters writers);
   ~PickWorker();
   PickWorker(const PickWorker&) = delete;
   PickWorker& operator=(const PickWorker&) = delete;
@@ -34,8 +42,7 @@ class PickWorker {
 
   PickCycle& cycle_;
   PlcLink& plc_;
-  PictureWriter* pictures_;
-  SnapshotWriter* snapshots_;
+  AnswerWriters writers_;
   std::atomic<std::uint64_t> progress_{0};
   std::atomic<bool> stop_{false};
   std::atomic<bool> ready_{false};

@@ -14,7 +14,40 @@ Status run(const std::string& path) {
   return run_daemon(configuration.value());
 }
 
+struct RecordOptions {
+  std::string configuration = "/etc/graspd/graspd.toml";
+  std::string folder;
+};
+
+Status record(const RecordOptions& options) {
+  const Result<Configuration> read = read_configuration(options.configuration);
+  if (!read.ok()) return read.status();
+  Configuration configuration = read.value();
+  configuration.record.folder = options.folder;
+  configuration.record.when = RecordWhen::always;
+  return run_daemon(configuration);
+}
+
 }  // namespace
+
+void add_record_command(CLI::App& command_line, Status& outcome) {
+  auto options = std::make_shared<RecordOptions>();
+  CLI::App* command = command_line.add_subcommand("record", "Serve the PLC and save every triggered frame");
+  command->add_option("--config", options->configuration, "Configuration file")->capture_default_str();
+  command->add_option("-o,--output", options->folder, "Folder of recordings; is made when it is not there")->required();
+  command->footer(
+      "Does what `graspd run` does, and records every request as one scene of a data set in BOP's form:\n"
+      "the frame and the empty bin in every bit, request, result and all rejections, and digests of\n"
+      "configuration and banks. The quota of [record] holds; the oldest recordings go first. With\n"
+      "record.folder in the configuration, `graspd run` records failures by itself.\n"
+      "\n"
+      "Examples:\n"
+      "  graspd record --config graspd.toml -o records\n"
+      "  graspd detect records/recorded/000001/depth/000000.tiff --bank part.bank \\\n"
+      "      --config graspd.toml --rejected --replayable --json -      # equals its detections.json\n"
+      "  graspd validate --bop records --split recorded --banks banks -o results.csv");
+  command->callback([options, &outcome] { outcome = record(*options); });
+}
 
 void add_run_command(CLI::App& command_line, Status& outcome) {
   auto path = std::make_shared<std::string>("/etc/graspd/graspd.toml");

@@ -80,6 +80,8 @@ class SettingsTable {
 
   /// The table below `key`, or one that is not present.
   [[nodiscard]] SettingsTable table(std::string_view key);
+  /// Every entry, for a table whose keys are names that others gave.
+  [[nodiscard]] std::span<const std::pair<std::string, TomlValue>> entries();
   /// The tables of [[key]], or none.
   [[nodiscard]] std::vector<SettingsTable> tables(std::string_view key);
 

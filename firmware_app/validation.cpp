@@ -1,5 +1,6 @@
 #include "firmware_app/validation.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -52,6 +53,9 @@ Result<DataSet> open_data_set(const ValidationOptions& options) {
     return Status::format(StatusCode::bad_bank, "%s: is of part number %u, not %u; compile it with --bop",
                           paths[index].c_str(), part_id, part);
   }
+  // Recordings of a line have neither true poses nor models to hold them against.
+  const auto annotated = [](const EvaluationImage& image) { return image.annotated; };
+  if (std::none_of(data.images.begin(), data.images.end(), annotated)) return data;
   Result<std::vector<EvaluationPart>> parts = read_evaluation_parts(options.root);
   if (!parts.ok()) return parts.status();
   data.parts = std::move(parts).value();

@@ -66,6 +66,20 @@ BufferParts find_parts(ArvBuffer* buffer, PixelFormat depth_format) {
   return parts;
 }
 
+/// Bytes that the leader of the buffer announced and no packet brought. Aravis takes a buffer for whole as soon as its
+/// trailer is there, and leaves in the rest what was in it before.
+std::size_t missing_bytes(ArvBuffer* buffer) {
+  std::size_t announced = 0;
+  for (guint i = 0; i < arv_buffer_get_n_parts(buffer); ++i) {
+    std::size_t size = 0;
+    arv_buffer_get_part_data(buffer, i, &size);
+    announced += size;
+  }
+  std::size_t received = 0;
+  arv_buffer_get_data(buffer, &received);
+  return announced > received ? announced - received : 0;
+}
+
 }  // namespace
 
 GenicamSession::GenicamSession(GenicamDevice device, const GenicamOptions& options)
@@ -135,7 +149,11 @@ Status GenicamSession::start_stream() {
     g_clear_error(&problem);
     return failed;
   }
-  g_object_set(stream_, "packet-resend",
+  // A machine that looks away for some milliseconds misses most of a frame: as much of it as the system allows waits in
+  // the socket, and each packet may be asked for twice.
+  constexpr double requests_a_packet = 2.0;
+  g_object_set(stream_, "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_AUTO, "packet-request-ratio", requests_a_packet,
+               "packet-resend",
                options_.packet_resend ? ARV_GV_STREAM_PACKET_RESEND_ALWAYS : ARV_GV_STREAM_PACKET_RESEND_NEVER,
                nullptr);
   for (std::size_t i = 0; i < genicam_buffer_count; ++i) {
@@ -179,12 +197,17 @@ Status GenicamSession::missing_frame() const {
 
 Status GenicamSession::accept(ArvBuffer* buffer) {
   const ArvBufferStatus status = arv_buffer_get_status(buffer);
-  if (status == ARV_BUFFER_STATUS_SUCCESS) {
+  awaits_frame_ = false;
+  const std::size_t missing_data = status == ARV_BUFFER_STATUS_SUCCESS ? missing_bytes(buffer) : 0;
+  if (status == ARV_BUFFER_STATUS_SUCCESS && missing_data == 0) {
     keep(buffer);
     return {};
   }
   arv_stream_push_buffer(stream_, buffer);
   switch (status) {
+    case ARV_BUFFER_STATUS_SUCCESS:
+      return Status::format(StatusCode::bad_frame, "the frame came in part: the camera never sent %zu bytes of it",
+                            missing_data);
     case ARV_BUFFER_STATUS_TIMEOUT:
     case ARV_BUFFER_STATUS_MISSING_PACKETS: {
       const guint64 missing = arv_stream_get_info_uint64_by_name(stream_, "n_missing_packets");
@@ -208,7 +231,9 @@ Status GenicamSession::take(std::int64_t deadline_ns, const std::atomic<bool>& w
   if (options_.trigger == CameraTrigger::software) {
     // What is there already was exposed before this request.
     discard();
-    while (ArvBuffer* old = arv_stream_try_pop_buffer(stream_)) arv_stream_push_buffer(stream_, old);
+    while (ArvBuffer* old = arv_stream_try_pop_buffer(stream_)) drop_late(old);
+    if (Status awaited = await_late_frame(deadline_ns, wanted); !awaited.ok()) return awaited;
+    awaits_frame_ = true;
     if (Status triggered = device_.execute("TriggerSoftware"); !triggered.ok()) {
       lost_ = true;
       return triggered;
@@ -224,6 +249,22 @@ Status GenicamSession::take(std::int64_t deadline_ns, const std::atomic<bool>& w
   Status missing = missing_frame();
   lost_ = true;
   return missing;
+}
+
+void GenicamSession::drop_late(ArvBuffer* buffer) {
+  arv_stream_push_buffer(stream_, buffer);
+  late_until_ns_ = 0;
+}
+
+Status GenicamSession::await_late_frame(std::int64_t deadline_ns, const std::atomic<bool>& wanted) {
+  if (monotonic_ns() >= late_until_ns_) return {};
+  ArvBuffer* late = wait_for_buffer(std::min(deadline_ns, late_until_ns_), wanted);
+  if (late != nullptr) drop_late(late);
+  // A trigger so late that its frame cannot be in time would only make the next request wait, too.
+  if (!lost_ && wanted && deadline_ns - monotonic_ns() >= options_.timeout_ns / 2) return {};
+  return Status::format(StatusCode::camera_lost,
+                        "the camera sent no frame within %.2f s, and that of a request before may still come",
+                        static_cast<double>(options_.timeout_ns) * 1e-9);
 }
 
 void GenicamSession::idle(std::int64_t duration_ns) {

@@ -45,6 +45,12 @@ class GenicamSession {
   /// time between requests, or the camera finds no room for new frames.
   void idle(std::int64_t duration_ns);
 
+  /// A frame that comes before `until_ns` may be the answer to a trigger of a session before, and is dropped: a camera
+  /// may end the exposure in hand before it obeys AcquisitionStop.
+  void expect_late_frame(std::int64_t until_ns) { late_until_ns_ = until_ns; }
+  /// The camera was triggered, and its frame has not come.
+  [[nodiscard]] bool awaits_frame() const { return awaits_frame_; }
+
   /// True when the camera said or showed that it no longer obeys.
   [[nodiscard]] bool lost() const { return lost_; }
   [[nodiscard]] bool changed() const { return changed_; }
@@ -60,6 +66,8 @@ class GenicamSession {
   void keep(ArvBuffer* buffer);
   ArvBuffer* wait_for_buffer(std::int64_t deadline_ns, const std::atomic<bool>& wanted);
   Status missing_frame() const;
+  [[nodiscard]] Status await_late_frame(std::int64_t deadline_ns, const std::atomic<bool>& wanted);
+  void drop_late(ArvBuffer* buffer);
 
   GenicamDevice device_;
   const GenicamOptions& options_;
@@ -69,6 +77,8 @@ class GenicamSession {
   ArvStream* stream_ = nullptr;
   ArvBuffer* kept_ = nullptr;
   std::int64_t kept_captured_ns_ = 0;
+  std::int64_t late_until_ns_ = 0;
+  bool awaits_frame_ = false;
   std::uint64_t frames_ = 0;
   std::atomic<bool> lost_{false};
   bool changed_ = false;

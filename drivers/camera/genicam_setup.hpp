@@ -31,7 +31,7 @@ struct GenicamOptions {
   int packet_size = 0;                          ///< Bytes of a packet with its headers; 0: as the camera has it.
   std::vector<Feature> features;                ///< Set in this order.
   Scan3dSettings scan3d;
-  FrameLimits limits;
+  FrameLimits limits{1280, 1024};
 };
 
 /// Frames under way, being decoded, and kept for a request.

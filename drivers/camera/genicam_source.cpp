@@ -109,6 +109,7 @@ void GenicamSource::connect() {
     return;
   }
   session_ = std::move(opened).value();
+  session_->expect_late_frame(late_until_ns_);
   pause_ns_ = 0;
   last_failure_ = {};
   const Camera& camera = session_->interpretation().camera;
@@ -128,6 +129,7 @@ void GenicamSource::disconnect(const Status& reason) {
   log_event(LogLevel::warning, "W201", "camera disconnected: %.*s", static_cast<int>(reason.message().size()),
             reason.message().data());
   last_failure_ = {StatusCode::camera_lost, "the camera is being connected again"};
+  if (session_->awaits_frame()) late_until_ns_ = monotonic_ns() + options_.timeout_ns;
   session_.reset();
   next_attempt_ns_ = monotonic_ns();
 }

@@ -68,6 +68,7 @@ class GenicamSource final : public FrameSource {
   std::unique_ptr<GenicamSession> session_;
   std::int64_t pause_ns_ = 0;
   std::int64_t next_attempt_ns_ = 0;
+  std::int64_t late_until_ns_ = 0;
   Status last_failure_;
 
   std::atomic<bool> connected_{false};

@@ -56,8 +56,8 @@ Status read_distances(const Scan3dNodes& nodes, const Scan3dSettings& settings, 
   // Depth cameras that know nothing of Scan3d nodes send plain images, which have no scale of their own.
   const bool plain = nodes.format == PixelFormat::mono16 && !nodes.scale;
   if (settings.scale) {
-    decoding.scale = *settings.scale;
-    decoding.offset = settings.offset.value_or(0.0);
+    decoding.scale = *settings.scale / 1000.0;
+    decoding.offset = settings.offset.value_or(0.0) / 1000.0;
     return {};
   }
   if (plain) return missing("Scan3dCoordinateScale", "scale");
@@ -67,7 +67,7 @@ Status read_distances(const Scan3dNodes& nodes, const Scan3dSettings& settings, 
     return unusable("Scan3dDistanceUnit", unit, "no unit of length; give camera.scale, the millimetres of one step");
   }
   decoding.scale = nodes.scale.value_or(1.0) / per_metre;
-  decoding.offset = settings.offset.value_or(nodes.offset.value_or(0.0) / per_metre);
+  decoding.offset = settings.offset ? *settings.offset / 1000.0 : nodes.offset.value_or(0.0) / per_metre;
   return {};
 }
 

@@ -31,8 +31,8 @@ struct Scan3dNodes {
 
 /// What the configuration says instead of a node. What is given here goes before what the camera says.
 struct Scan3dSettings {
-  std::optional<double> scale;           ///< Metres of one stored step; of a disparity: pixels.
-  std::optional<double> offset;          ///< Metres; of a disparity: pixels.
+  std::optional<double> scale;           ///< Millimetres of one stored step; of a disparity: pixels.
+  std::optional<double> offset;          ///< Millimetres; of a disparity: pixels.
   std::optional<double> invalid_value;   ///< As stored.
   std::optional<double> focal_length_u;  ///< Pixels.
   std::optional<double> focal_length_v;  ///< Pixels; without it, as focal_length_u.

@@ -23,8 +23,10 @@ constexpr std::uint16_t control_port = 3956;
 /// Of a packet with its headers: fits every Ethernet, and on the loopback fewer packets are faster.
 constexpr std::uint32_t ethernet_packet_bytes = 1500;
 constexpr std::uint32_t loopback_packet_bytes = 9000;
-/// As many bytes go out at once, then the client gets time to take them: its socket holds no more for sure.
+/// As many bytes go out at once, then the client gets time to take them: its socket holds no more for sure. As fast as
+/// Gigabit Ethernet.
 constexpr std::size_t burst_bytes = 64 * 1024;
+constexpr std::chrono::microseconds burst_pause{500};
 
 FileDescriptor bound_socket(const in_addr& address, std::uint16_t port, bool shared) {
   FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
@@ -218,7 +220,7 @@ void SimulatedCamera::send_frame() {
     burst += packet_.size();
     if (burst < burst_bytes) continue;
     burst = 0;
-    std::this_thread::sleep_for(std::chrono::microseconds(200));
+    std::this_thread::sleep_for(burst_pause);
     answer_controls(0);
   }
   ++frames_sent_;

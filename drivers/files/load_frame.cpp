@@ -115,6 +115,18 @@ Result<LoadedFrame> load_from_scene(const BopPlace& place, const FrameFileOption
   return frame;
 }
 
+/// The frame of the empty bin that lies in the folder empty/ of a scene: its depth is as the scene's first image.
+Result<LoadedFrame> load_empty_of_scene(const BopPlace& place, const fs::path& path) {
+  const Result<BopScene> scene = read_bop_scene(place.scene_folder);
+  if (!scene.ok()) return scene.status();
+  const BopImage& image = scene.value().images.front();
+  LoadedFrame frame;
+  frame.camera = image.camera;
+  const Status read = load_depth(path, image.depth_scale, frame.camera, frame.depth);
+  if (!read.ok()) return read;
+  return frame;
+}
+
 Result<LoadedFrame> load_cloud(const fs::path& path, const FrameFileOptions& options) {
   const Result<Cloud> cloud = read_cloud(path, options.cloud_unit, options.cloud_axes);
   if (!cloud.ok()) return cloud.status();
@@ -136,7 +148,10 @@ Result<LoadedFrame> load_any(const fs::path& path, const FrameFileOptions& optio
       return load_cloud(path, options);
     case FrameKind::image: {
       const std::optional<BopPlace> place = find_bop_place(path);
-      if (place && options.camera_file.empty()) return load_from_scene(*place, options);
+      if (place && options.camera_file.empty()) {
+        const bool empty = folder_of(path).filename() == "empty";
+        return empty ? load_empty_of_scene(*place, path) : load_from_scene(*place, options);
+      }
       return load_image(path, options);
     }
     case FrameKind::unknown:

@@ -66,6 +66,43 @@ TEST_F(BadInput, CommandLine) {
   expect_refusal({"bank", "compile", "-o", "x.bank"}, 2, {"part file"});
 }
 
+TEST_F(BadInput, Cameras) {
+  expect_refusal({"camera"}, 2, {"subcommand"});
+  expect_refusal({"camera", "grab"}, 2, {"--output"});
+  expect_refusal({"camera", "show", "--device", "a", "--config", "b"}, 2, {"--device", "--config"});
+  expect_refusal({"camera", "show", "--config", folder_.path("none.toml")}, 3, {"none.toml", "No such file"});
+  expect_refusal({"simulate"}, 2, {"FRAMES"});
+  expect_refusal({"simulate", folder_.path("none")}, 4, {"none", "No such file"});
+  expect_refusal({"simulate", bank_}, 4, {"bar.bank", "not a kind of frame"});
+  expect_refusal({"simulate", scene_.string(), "--format", "RGB8"}, 2, {"--format", "Coord3D_C32f"});
+  expect_refusal({"simulate", scene_.string(), "--address", "here"}, 9, {"here", "IPv4"});
+  // An address for documentation, which no machine has.
+  expect_refusal({"simulate", scene_.string(), "--address", "192.0.2.7"}, 8, {"192.0.2.7", "cannot listen"});
+}
+
+TEST_F(BadInput, CameraKeys) {
+  const auto refused = [this](const std::string& keys, const std::string& words) {
+    const std::string file =
+        folder_.write("graspd.toml", "banks = [\"bar.bank\"]\n[camera]\nsource = \"genicam\"\n" + keys + "\n");
+    expect_refusal({"check", "--config", file}, 3, {"graspd.toml:", words});
+  };
+  refused("device = \"\"", "camera.device must be a serial number");
+  refused("trigger = \"sometimes\"", "camera.trigger must be one of \"software\"");
+  refused("timeout = -1", "camera.timeout");
+  refused("packet_size = 5", "camera.packet_size");
+  refused("focal_length = [0.0, 1.0]", "camera.focal_length must hold two positive numbers");
+  refused("scale = \"x\"", "camera.scale");
+  refused("[camera.features]\nExposureTime = [1]", "camera.features.ExposureTime must be a number");
+}
+
+TEST_F(BadInput, Recording) {
+  const std::string place = folder_.path("bar.bank") + "/records";
+  expect_refusal({"record", "-o", place, "--config", folder_.path("none.toml")}, 3, {"none.toml"});
+  expect_refusal({"record", "--config", configuration("")}, 2, {"--output"});
+  expect_refusal({"check", "--config", configuration("[record]\nwhen = \"now\"\n")}, 3, {"record.when"});
+  expect_refusal({"check", "--config", configuration("[record]\nmaximum_frames = 0\n")}, 3, {"record.maximum_frames"});
+}
+
 TEST_F(BadInput, ConfigurationMissing) {
   expect_refusal({"check", "--config", folder_.path("none.toml")}, 3, {"none.toml", "No such file"});
   expect_refusal({"run", "--config", folder_.path("none.toml")}, 3, {"none.toml", "No such file"});

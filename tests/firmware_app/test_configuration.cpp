@@ -95,7 +95,7 @@ TEST_F(ConfigurationFile, MissingKeySaysWhatItIsFor) {
 
 TEST_F(ConfigurationFile, UnknownChoiceListsWhatIsAllowed) {
   EXPECT_EQ(complaint("banks = [\"a.bank\"]\n[camera]\nsource = \"webcam\"\npath = \"a\"\n"),
-            "graspd.toml:3: camera.source must be \"recorded\", but is \"webcam\"");
+            "graspd.toml:3: camera.source must be one of \"recorded\", \"genicam\", but is \"webcam\"");
 }
 
 TEST_F(ConfigurationFile, TopmostProblemOfTheFileIsTold) {

@@ -96,6 +96,15 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   };
 #define GRASPD_COMPARE(path) compare([](const Configuration& c) { return c.path; }, #path)
   GRASPD_COMPARE(camera.maximum_age);
+  GRASPD_COMPARE(record.when);
+  GRASPD_COMPARE(record.maximum_frames);
+  GRASPD_COMPARE(record.maximum_bytes);
+  GRASPD_COMPARE(camera.genicam.trigger);
+  GRASPD_COMPARE(camera.genicam.timeout_ns);
+  GRASPD_COMPARE(camera.genicam.confidence);
+  GRASPD_COMPARE(camera.genicam.packet_resend);
+  GRASPD_COMPARE(camera.genicam.limits.maximum_width);
+  GRASPD_COMPARE(camera.genicam.limits.maximum_height);
   GRASPD_COMPARE(camera.recorded.maximum_bytes);
   GRASPD_COMPARE(detect.parameters.threads);
   GRASPD_COMPARE(detect.deadline_ns);

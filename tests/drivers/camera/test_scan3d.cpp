@@ -62,7 +62,7 @@ TEST(Scan3d, KnowsUnits) {
   nodes.distance_unit = "DeviceSpecific";
   EXPECT_THAT(refusal(nodes), HasSubstr("Scan3dDistanceUnit is DeviceSpecific"));
   Scan3dSettings settings;
-  settings.scale = 0.002;
+  settings.scale = 2.0;
   EXPECT_DOUBLE_EQ(interpret(nodes, settings).decoding.scale, 0.002);
 }
 
@@ -82,7 +82,7 @@ TEST(Scan3d, LetsTheConfigurationStandIn) {
   settings.principal_point_v = 120.0;
   EXPECT_THAT(refusal(bare, settings),
               HasSubstr("no Scan3dCoordinateScale, and the configuration gives no camera.scale"));
-  settings.scale = 0.001;
+  settings.scale = 1.0;
   const Scan3dInterpretation made = interpret(bare, settings);
   EXPECT_EQ(made.camera.fx, 500.0F);
   EXPECT_EQ(made.camera.fy, 510.0F);

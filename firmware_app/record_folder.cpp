@@ -1,0 +1,120 @@
+#include "firmware_app/record_folder.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <system_error>
+#include <utility>
+
+#include "drivers/files/atomic_file.hpp"
+#include "drivers/files/json_file.hpp"
+
+namespace graspd {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int largest_number = 999999;
+
+std::string six_digits(int number) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%06d", number);
+  return text;
+}
+
+/// The number that a folder is named by; 0 for other names.
+int number_of(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  int number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return error == std::errc() && end == name.data() + name.size() ? number : 0;
+}
+
+std::size_t bytes_below(const fs::path& folder) {
+  std::size_t bytes = 0;
+  std::error_code ignored;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, ignored)) {
+    if (entry.is_regular_file(ignored)) bytes += static_cast<std::size_t>(entry.file_size(ignored));
+  }
+  return bytes;
+}
+
+Status cannot_write(const fs::path& path, const std::error_code& error) {
+  return Status::format(StatusCode::cannot_write, "%s: %s", path.c_str(), error.message().c_str());
+}
+
+}  // namespace
+
+fs::path RecordFolder::scenes() const { return fs::path(settings_.folder) / "recorded"; }
+
+Result<RecordFolder> RecordFolder::open(const RecordSettings& settings) {
+  RecordFolder folder(settings);
+  std::error_code error;
+  fs::create_directories(folder.scenes(), error);
+  if (error) return cannot_write(folder.scenes(), error);
+  if (Status writable = check_writable(fs::path(settings.folder) / "recorded_targets_bop19.json"); !writable.ok()) {
+    return writable;
+  }
+  for (const auto& entry : fs::directory_iterator(folder.scenes(), error)) {
+    const int number = number_of(entry.path());
+    if (number <= 0) continue;
+    Recording recording{number, bytes_below(entry.path()), {}};
+    const Result<nlohmann::json> record = read_json(entry.path() / "record.json");
+    if (!record.ok()) return record.status();
+    for (const auto& bank : record.value().value("banks", nlohmann::json::array())) {
+      recording.parts.insert(bank.value("part", 0U));
+    }
+    folder.recordings_.push_back(std::move(recording));
+  }
+  std::sort(folder.recordings_.begin(), folder.recordings_.end(),
+            [](const Recording& a, const Recording& b) { return a.number < b.number; });
+  if (!folder.recordings_.empty()) folder.next_ = folder.recordings_.back().number % largest_number + 1;
+  return folder;
+}
+
+Result<fs::path> RecordFolder::add(const std::set<std::uint32_t>& parts,
+                                   const std::function<Status(const fs::path&)>& fill) {
+  const fs::path unfinished = scenes() / ".unfinished";
+  const fs::path finished = scenes() / six_digits(next_);
+  std::error_code error;
+  fs::remove_all(unfinished, error);
+  fs::create_directories(unfinished, error);
+  if (error) return cannot_write(unfinished, error);
+  if (Status filled = fill(unfinished); !filled.ok()) {
+    fs::remove_all(unfinished, error);
+    return filled;
+  }
+  fs::rename(unfinished, finished, error);
+  if (error) return cannot_write(finished, error);
+  recordings_.push_back({next_, bytes_below(finished), parts});
+  next_ = next_ % largest_number + 1;
+  forget_oldest();
+  if (Status written = write_targets(); !written.ok()) return written;
+  return finished;
+}
+
+void RecordFolder::forget_oldest() {
+  std::size_t bytes = 0;
+  for (const Recording& recording : recordings_) bytes += recording.bytes;
+  std::size_t gone = 0;
+  while (gone < recordings_.size() && (recordings_.size() - gone > static_cast<std::size_t>(settings_.maximum_frames) ||
+                                       bytes > settings_.maximum_bytes)) {
+    std::error_code ignored;
+    fs::remove_all(scenes() / six_digits(recordings_[gone].number), ignored);
+    bytes -= recordings_[gone].bytes;
+    ++gone;
+  }
+  recordings_.erase(recordings_.begin(), recordings_.begin() + static_cast<std::ptrdiff_t>(gone));
+}
+
+Status RecordFolder::write_targets() const {
+  nlohmann::json targets = nlohmann::json::array();
+  for (const Recording& recording : recordings_) {
+    for (const std::uint32_t part : recording.parts) {
+      targets.push_back({{"scene_id", recording.number}, {"im_id", 0}, {"obj_id", part}, {"inst_count", 1}});
+    }
+  }
+  return write_file(fs::path(settings_.folder) / "recorded_targets_bop19.json", targets.dump(1) + "\n");
+}
+
+}  // namespace graspd

@@ -1,0 +1,113 @@
+#include <CLI/CLI.hpp>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drivers/camera/simulated_camera.hpp"
+#include "drivers/files/bop_dataset.hpp"
+#include "drivers/files/load_frame.hpp"
+#include "drivers/system/signals.hpp"
+#include "firmware_app/commands.hpp"
+
+namespace graspd {
+namespace {
+
+constexpr std::array formats{PixelFormat::coordinate_c16, PixelFormat::coordinate_c32f, PixelFormat::coordinate_abc16,
+                             PixelFormat::coordinate_abc32f, PixelFormat::mono16};
+
+struct SimulateOptions {
+  std::vector<std::string> frames;
+  std::string format = "Coord3D_C16";
+  SimulatedCameraOptions camera;
+  double exposure = 0.0;
+  bool no_resend = false;
+};
+
+Result<std::vector<LoadedFrame>> load_frames(const std::vector<std::string>& paths, double& step) {
+  std::vector<LoadedFrame> frames;
+  for (const std::string& path : paths) {
+    if (!is_bop_scene(path)) {
+      Result<LoadedFrame> frame = load_frame(path, {});
+      if (!frame.ok()) return frame.status();
+      frames.push_back(std::move(frame).value());
+      continue;
+    }
+    const Result<BopScene> scene = read_bop_scene(path);
+    if (!scene.ok()) return scene.status();
+    for (const BopImage& image : scene.value().images) {
+      Result<LoadedFrame> frame = load_bop_frame(scene.value(), image.im_id);
+      if (!frame.ok()) return frame.status();
+      frames.push_back(std::move(frame).value());
+      // The steps of the recording, so that 16 bits hold what it held.
+      if (image.depth_scale > 0 && image.depth_scale <= 1) step = static_cast<double>(image.depth_scale);
+    }
+  }
+  return frames;
+}
+
+Status simulate(SimulateOptions options) {
+  for (const PixelFormat format : formats) {
+    if (options.format == pixel_format_name(format)) options.camera.encoding.format = format;
+  }
+  double step = options.camera.encoding.step;
+  Result<std::vector<LoadedFrame>> frames = load_frames(options.frames, step);
+  if (!frames.ok()) return frames.status();
+  options.camera.encoding.step = step;
+  options.camera.answers_resend = !options.no_resend;
+  options.camera.exposure_ns = static_cast<std::int64_t>(options.exposure * 1e9);
+  Result<SignalWaiter> signals = SignalWaiter::make();
+  if (!signals.ok()) return signals.status();
+  const std::size_t count = frames.value().size();
+  const Result<std::unique_ptr<SimulatedCamera>> camera =
+      SimulatedCamera::start(options.camera, std::move(frames).value());
+  if (!camera.ok()) return camera.status();
+  std::fprintf(stderr, "camera %s at %s plays %zu frames as %s; ends with SIGTERM or Ctrl-C\n",
+               options.camera.serial.c_str(), options.camera.address.c_str(), count, options.format.c_str());
+  while (signals.value().wait(std::chrono::milliseconds(1000)) != Signal::stop) {
+  }
+  std::fprintf(stderr, "frames_sent=%llu packets_lost=%llu packets_resent=%llu\n",
+               static_cast<unsigned long long>(camera.value()->frames_sent()),
+               static_cast<unsigned long long>(camera.value()->packets_lost()),
+               static_cast<unsigned long long>(camera.value()->packets_resent()));
+  return {};
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& command_line, Status& outcome) {
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::App* command = command_line.add_subcommand("simulate", "Be a 3D camera on the network that plays frames");
+  command->add_option("FRAMES", options->frames, "Scene folders in BOP's form, or frames of one camera")->required();
+  std::vector<std::string> names;
+  for (const PixelFormat format : formats) names.emplace_back(pixel_format_name(format));
+  command->add_option("--format", options->format, "PixelFormat; a client may choose another")
+      ->capture_default_str()
+      ->check(CLI::IsMember(names));
+  command->add_flag("--disparity", options->camera.encoding.disparity, "Send disparities, as a stereo camera");
+  command->add_option("--step", options->camera.encoding.step, "Millimetres of one step of 16-bit depth")
+      ->capture_default_str()
+      ->check(CLI::Range(0.001, 100.0));
+  command->add_option("--address", options->camera.address, "IPv4 address of this machine to listen at")
+      ->capture_default_str();
+  command->add_option("--serial", options->camera.serial, "Serial number")->capture_default_str();
+  command->add_option("--exposure", options->exposure, "Seconds from the trigger to the first packet")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 60.0));
+  command->add_option("--lose", options->camera.lost_packets, "Share of the packets that get lost")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_flag("--no-resend", options->no_resend, "Never send a lost packet again");
+  command->footer(
+      "Answers to GigE Vision clients as a camera with Scan3d nodes would: graspd itself, Aravis'\n"
+      "tools, and others. Each trigger takes the next frame, and the first again after the last.\n"
+      "\n"
+      "Example, for a configuration with source = \"genicam\" and device = \"127.0.0.1\":\n"
+      "  graspd simulate frames/000001 --format Coord3D_C32f");
+  command->callback([options, &outcome] { outcome = simulate(*options); });
+}
+
+}  // namespace graspd

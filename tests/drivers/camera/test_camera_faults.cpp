@@ -1,0 +1,259 @@
+#include <arv.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <future>
+
+#include "tests/drivers/camera/camera_on_the_wire.hpp"
+
+namespace graspd {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::int64_t second_ns = 1'000'000'000;
+
+/// Faults on the way between a camera and its source. Each tells how long it took until frames came again.
+class CameraFaults : public CameraOnTheWire {
+ protected:
+  void SetUp() override {
+    CameraOnTheWire::SetUp();
+    options_.timeout_ns = second_ns;
+  }
+
+  /// Asks once; the answer must come within the timeout, and a little for a busy machine.
+  Status grab_in_time() {
+    const std::int64_t start = monotonic_ns();
+    const Status status = grab();
+    EXPECT_LT(monotonic_ns() - start, options_.timeout_ns + 1'500'000'000) << status.message();
+    return status;
+  }
+
+  /// Asks until a frame comes; every answer must be in time and with one of the codes of a lost camera.
+  void recover(const char* fault) {
+    const std::int64_t start = monotonic_ns();
+    int asked = 0;
+    Status status;
+    do {
+      ++asked;
+      status = grab_in_time();
+      if (!status.ok()) {
+        EXPECT_EQ(status.code(), StatusCode::camera_lost) << status.message();
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      }
+    } while (!status.ok() && monotonic_ns() - start < 30 * second_ns);
+    ASSERT_TRUE(status.ok()) << status.message();
+    std::printf("%s: frames again after %.2f s and %d requests\n", fault,
+                static_cast<double>(monotonic_ns() - start) * 1e-9, asked);
+  }
+};
+
+TEST_F(CameraFaults, GoneInMidFrameAndBack) {
+  simulated_.exposure_ns = 100'000'000;
+  switch_on();
+  connect();
+  ASSERT_TRUE(grab_in_time().ok());
+  std::thread plug([this] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    camera_.reset();
+  });
+  const Status lost = grab_in_time();
+  plug.join();
+  EXPECT_EQ(lost.code(), StatusCode::camera_lost) << lost.message();
+  EXPECT_EQ(grab_in_time().code(), StatusCode::camera_lost);
+  switch_on();
+  recover("unplugged in mid-frame");
+  expect_frame(0);
+  EXPECT_EQ(source_->connection_count(), 2U);
+}
+
+TEST_F(CameraFaults, RestartedBetweenRequests) {
+  switch_on();
+  connect();
+  ASSERT_TRUE(grab_in_time().ok());
+  camera_.reset();
+  switch_on();
+  // Nobody asks: the heartbeat finds out, and the camera is there again before the next request.
+  const std::int64_t start = monotonic_ns();
+  while (source_->connection_count() < 2 && monotonic_ns() - start < 20 * second_ns) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  std::printf("heartbeat lost: connected again after %.2f s\n", static_cast<double>(monotonic_ns() - start) * 1e-9);
+  ASSERT_EQ(source_->connection_count(), 2U);
+  EXPECT_TRUE(grab_in_time().ok());
+  expect_frame(0);
+}
+
+TEST_F(CameraFaults, AppearsOnlyAfterStart) {
+  source_.emplace(options_, LoadedFrame{});
+  const Status absent = grab_in_time();
+  EXPECT_EQ(absent.code(), StatusCode::camera_lost);
+  EXPECT_FALSE(source_->connected());
+  switch_on();
+  recover("appears after start");
+  expect_frame(0);
+  EXPECT_TRUE(source_->connected());
+}
+
+TEST_F(CameraFaults, NeverAnswersTheTrigger) {
+  switch_on();
+  connect();
+  camera_->set_deaf(true);
+  for (int i = 0; i < 2; ++i) {
+    const Status silent = grab_in_time();
+    EXPECT_EQ(silent.code(), StatusCode::camera_lost);
+    EXPECT_THAT(std::string(silent.message()), HasSubstr("1.00 s"));
+  }
+  camera_->set_deaf(false);
+  recover("deaf to triggers");
+  EXPECT_EQ(camera_->frames_sent(), 1U) << "no frame of a request that was given up";
+}
+
+TEST_F(CameraFaults, FrameOfARequestThatWasGivenUpIsNeverUsed) {
+  simulated_.exposure_ns = 1'300'000'000;
+  switch_on();
+  connect();
+  EXPECT_EQ(grab_in_time().code(), StatusCode::camera_lost) << "exposed longer than the timeout";
+  const Status next = grab_in_time();
+  EXPECT_EQ(next.code(), StatusCode::camera_lost) << "only the frame before could have come in time";
+}
+
+TEST_F(CameraFaults, LostPacketsAreSentAgain) {
+  simulated_.lost_packets = 0.2;
+  options_.packet_size = 576;
+  options_.timeout_ns = 3 * second_ns;
+  switch_on();
+  connect();
+  int whole = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Status status = grab_in_time();
+    if (!status.ok()) {
+      EXPECT_TRUE(status.code() == StatusCode::bad_frame || status.code() == StatusCode::camera_lost)
+          << status.message();
+      continue;
+    }
+    ++whole;
+    expect_frame(static_cast<std::size_t>(camera_->frames_sent() - 1));
+  }
+  std::printf("with resend: %d of 20 frames whole, %llu packets lost, %llu sent again\n", whole,
+              static_cast<unsigned long long>(camera_->packets_lost()),
+              static_cast<unsigned long long>(camera_->packets_resent()));
+  EXPECT_GT(camera_->packets_lost(), 20U);
+  EXPECT_GT(camera_->packets_resent(), 20U);
+  EXPECT_GT(whole, 5);
+}
+
+TEST_F(CameraFaults, LostPacketsWithoutResendAreABadFrame) {
+  simulated_.lost_packets = 0.05;
+  simulated_.answers_resend = false;
+  options_.packet_size = 576;
+  switch_on();
+  connect();
+  int whole = 0;
+  int partial = 0;
+  for (int i = 0; i < 10; ++i) {
+    const Status status = grab_in_time();
+    if (status.ok()) {
+      ++whole;
+      expect_frame(static_cast<std::size_t>(camera_->frames_sent() - 1));
+    } else if (status.code() == StatusCode::bad_frame) {
+      ++partial;
+      EXPECT_THAT(std::string(status.message()), HasSubstr("came in part"));
+    } else {
+      EXPECT_EQ(status.code(), StatusCode::camera_lost) << status.message();
+    }
+  }
+  std::printf("without resend: %d of 10 frames whole, %d in part\n", whole, partial);
+  EXPECT_GT(partial, 0);
+}
+
+TEST_F(CameraFaults, TruncatedFrame) {
+  switch_on();
+  connect();
+  camera_->set_truncated(true);
+  const Status truncated = grab_in_time();
+  EXPECT_EQ(truncated.code(), StatusCode::bad_frame) << truncated.message();
+  camera_->set_truncated(false);
+  recover("truncated frame");
+  expect_frame(1);
+}
+
+TEST_F(CameraFaults, RegionChangesUnderWay) {
+  switch_on();
+  connect();
+  ASSERT_TRUE(grab_in_time().ok());
+  camera_->set_region(48, 32);
+  const Status changed = grab_in_time();
+  EXPECT_EQ(changed.code(), StatusCode::bad_frame) << changed.message();
+  recover("another region");
+  EXPECT_EQ(frame_.camera.width, 48);
+  EXPECT_EQ(frame_.camera.height, 32);
+  EXPECT_EQ(frame_.at(47, 31), frames_[2].frame().at(47, 31)) << "nodes were read again";
+}
+
+// A sanitizer keeps what was freed, and tells of leaks itself.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitized = true;
+#elif defined(__has_feature)
+constexpr bool sanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool sanitized = false;
+#endif
+
+std::size_t resident_kibibytes() {
+  std::ifstream file("/proc/self/status");
+  std::string word;
+  while (file >> word) {
+    std::size_t value = 0;
+    if (word == "VmRSS:" && file >> value) return value;
+  }
+  return 0;
+}
+
+/// GRASPD_RECONNECTS sets how often; 500 shows that nothing leaks.
+TEST_F(CameraFaults, MemoryStaysFlatOverReconnects) {
+  const char* wanted = std::getenv("GRASPD_RECONNECTS");
+  const int reconnects = wanted == nullptr ? 20 : std::atoi(wanted);
+  options_.maximum_age_ns = second_ns;
+  switch_on();
+  std::size_t settled = 0;
+  for (int i = 0; i < reconnects; ++i) {
+    connect();
+    ASSERT_TRUE(grab_in_time().ok());
+    source_.reset();
+    if (i == reconnects / 2) settled = resident_kibibytes();
+  }
+  const std::size_t end = resident_kibibytes();
+  std::printf("%d reconnects: %zu KiB resident half way, %zu KiB at the end\n", reconnects, settled, end);
+  if (!sanitized) {
+    EXPECT_LT(end, settled + 2048);
+  }
+}
+
+/// Aravis' own fake camera: plain Mono16 images, no Scan3d nodes.
+TEST_F(CameraFaults, StockFakeCameraStreamsThroughTheConfiguredScale) {
+  ArvGvFakeCamera* fake = arv_gv_fake_camera_new("127.0.0.1", "GV01");
+  ASSERT_TRUE(arv_gv_fake_camera_is_running(fake));
+  options_.limits = {512, 512};
+  options_.timeout_ns = 5 * second_ns;
+  options_.features = {
+      {"PixelFormat", std::string("Mono16")}, {"Width", std::int64_t{128}}, {"Height", std::int64_t{64}}};
+  options_.scan3d.scale = 0.1;
+  options_.scan3d.focal_length_u = 500.0;
+  options_.scan3d.principal_point_u = 64.0;
+  options_.scan3d.principal_point_v = 32.0;
+  connect();
+  const Status grabbed = grab();
+  EXPECT_TRUE(grabbed.ok()) << grabbed.message();
+  ASSERT_EQ(frame_.camera.width, 128);
+  EXPECT_EQ(frame_.camera.height, 64);
+  // Its pattern rises by 256 a pixel.
+  const float step = frame_.at(11, 5) - frame_.at(10, 5);
+  EXPECT_NEAR(step, 0.0256F, 1e-6F);
+  source_.reset();
+  g_object_unref(fake);
+}
+
+}  // namespace
+}  // namespace graspd

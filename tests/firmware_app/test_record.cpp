@@ -1,0 +1,116 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "drivers/files/atomic_file.hpp"
+#include "drivers/plc/modbus_client.hpp"
+#include "firmware_app/record_folder.hpp"
+#include "tests/firmware_app/graspd_process.hpp"
+#include "tests/firmware_app/pick_cycle_fixture.hpp"
+
+namespace graspd {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::chrono::seconds patience{60};
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+TEST(Record, ReplaysToTheSameBytes) {
+  const TemporaryFolder folder;
+  const TemporaryFolder client;
+  const std::string bank = folder.path("bar.bank");
+  ASSERT_TRUE(write_file(bank, shared_angle_bar_bank()).ok());
+  const std::filesystem::path scene = write_bop_scene(folder.path("data"), angle_bar_scene());
+  const std::string configuration =
+      folder.write("graspd.toml", "banks = [\"bar.bank\"]\n[camera]\nsource = \"recorded\"\npath = \"" +
+                                      scene.string() + "\"\n[detect.match]\nreference_step = 4\n" +
+                                      "[modbus]\naddress = \"127.0.0.1\"\nport = 0\n[memory]\nlock = false\n");
+  const std::filesystem::path records = folder.path("records");
+  GraspdProcess daemon(folder, {"record", "--config", configuration, "-o", records.string()});
+  const std::optional<std::string> port = daemon.wait_for(" port=", patience);
+  ASSERT_TRUE(port) << daemon.errors();
+  Result<ModbusClient> plc =
+      ModbusClient::connect("127.0.0.1", static_cast<std::uint16_t>(std::stoi(*port)), BlockFormat{});
+  ASSERT_TRUE(plc.ok()) << plc.status().message();
+  ClientRequest request;
+  request.request_id = 77;
+  const Result<ResultBlock> block = plc.value().request_pick(request, patience);
+  ASSERT_TRUE(block.ok()) << block.status().message();
+  ASSERT_TRUE(daemon.wait_for("code=I017 recorded ", patience)) << daemon.errors();
+  daemon.terminate();
+  EXPECT_EQ(daemon.wait(), 0) << daemon.errors();
+
+  const std::filesystem::path recording = records / "recorded" / "000001";
+  const GraspdOutcome replay =
+      run_graspd(client, {"detect", (recording / "depth" / "000000.tiff").string(), "--bank", bank, "--config",
+                          configuration, "--rejected", "--replayable", "--json", "-"});
+  EXPECT_EQ(replay.exit_code, 0) << replay.errors;
+  EXPECT_EQ(replay.output, text_of(recording / "detections.json"));
+  EXPECT_EQ(text_of(recording / "graspd.toml"), text_of(configuration));
+
+  const nlohmann::json record = nlohmann::json::parse(text_of(recording / "record.json"));
+  EXPECT_EQ(record["request"]["id"], 77);
+  EXPECT_EQ(record["result"]["code"], "ok");
+  EXPECT_EQ(record["result"]["instances_found"], 2);
+  EXPECT_EQ(record["banks"][0]["part"], 7);
+  EXPECT_EQ(record["banks"][0]["digest"].get<std::string>().size(), 16U);
+
+  std::filesystem::create_directories(folder.path("banks"));
+  std::filesystem::copy_file(bank, std::filesystem::path(folder.path("banks")) / "obj_000007.bank");
+  const GraspdOutcome validated =
+      run_graspd(client, {"validate", "--bop", records.string(), "--split", "recorded", "--banks", folder.path("banks"),
+                          "-o", folder.path("results.csv")});
+  EXPECT_EQ(validated.exit_code, 0) << validated.errors;
+  EXPECT_THAT(validated.output, HasSubstr("2 instances reported in 1 images"));
+}
+
+TEST(Record, KeepsItsQuota) {
+  const TemporaryFolder folder;
+  RecordSettings settings;
+  settings.folder = folder.path("records");
+  settings.maximum_frames = 3;
+  settings.maximum_bytes = 5000;
+  const auto add = [&](RecordFolder& records, std::size_t bytes) {
+    const auto added = records.add({7}, [bytes](const std::filesystem::path& scene) {
+      if (Status written = write_file(scene / "depth.tiff", std::string(bytes, 'x')); !written.ok()) return written;
+      return write_file(scene / "record.json", std::string_view("{\"banks\": [{\"part\": 7}]}"));
+    });
+    EXPECT_TRUE(added.ok()) << added.status().message();
+  };
+  const auto kept = [&] {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(settings.folder + "/recorded")) {
+      names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  };
+  {
+    Result<RecordFolder> records = RecordFolder::open(settings);
+    ASSERT_TRUE(records.ok()) << records.status().message();
+    for (int i = 0; i < 5; ++i) add(records.value(), 100);
+    EXPECT_THAT(kept(), testing::ElementsAre("000003", "000004", "000005"));
+    const auto failed = records.value().add({7}, [](const std::filesystem::path& scene) {
+      std::ofstream(scene / "half") << "half";
+      return Status(StatusCode::cannot_write, "disk full");
+    });
+    EXPECT_EQ(failed.status().code(), StatusCode::cannot_write);
+    EXPECT_THAT(kept(), testing::ElementsAre("000003", "000004", "000005")) << "nothing half-written";
+  }
+  Result<RecordFolder> again = RecordFolder::open(settings);
+  ASSERT_TRUE(again.ok()) << again.status().message();
+  add(again.value(), 4800);
+  EXPECT_THAT(kept(), testing::ElementsAre("000005", "000006")) << "counted on, and within the bytes";
+  EXPECT_THAT(text_of(settings.folder + "/recorded_targets_bop19.json"), HasSubstr("\"scene_id\": 6"));
+}
+
+}  // namespace
+}  // namespace graspd
