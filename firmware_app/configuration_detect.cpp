@@ -28,6 +28,7 @@ void read_match(SettingsTable table, DetectParameters& parameters) {
   table.read("plausible_per_place", parameters.cluster.plausible_per_place, 1, 1000);
   table.read("judged_per_place", parameters.refine.judged_per_place, 1, 1000);
   table.read("verify_tolerance", parameters.verify.tolerance, 0.05, 5);
+  table.read("verify_blurred_tolerance", parameters.verify.blurred_tolerance, 0.05, 5);
   table.read("minimum_measured", parameters.verify.minimum_measured, 0, 1);
   table.finish();
 }

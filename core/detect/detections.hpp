@@ -38,7 +38,8 @@ struct Evidence {
   float contour = 0;    ///< Share of the decided outline that lies on a depth edge of the scene.
   float relief = 0;     ///< Spread of the normals of the confirmed surface: 0 flat, 2/3 a ball.
   float below = 0;      ///< Share of the model below the plane or inside accepted instances.
-  float residual = 0;   ///< Root mean square distance of confirmed points, in voxels of the bank.
+  float residual = 0;   ///< Root mean square distance of confirmed points, in voxels of the bank
+  float misfit = 0;     ///< and as a share of what is tolerated of this sensor.
   float confirmed = 0;  ///< Area that confirms the model, in voxel faces of the bank seen from the sensor.
 };
 

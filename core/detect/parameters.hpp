@@ -63,9 +63,10 @@ struct RefineParameters {
 
 /// Verification (paper 2.4.2); the thresholds come from the bank.
 struct VerifyParameters {
-  bool tests = true;              ///< False: only the score decides (ablation).
-  float tolerance = 0.4F;         ///< Voxels: a model surface this close to the measured one is confirmed.
-  float minimum_measured = 0.3F;  ///< Share of the model that must have been measured at all to be judged.
+  bool tests = true;               ///< False: only the score decides (ablation).
+  float tolerance = 0.4F;          ///< Voxels: a model surface this close to the measured one is confirmed
+  float blurred_tolerance = 1.0F;  ///< and this close when the sensor smears depth steps over half a voxel.
+  float minimum_measured = 0.2F;   ///< Share of the model that must have been measured at all to be judged.
 };
 
 /// Bounds on what one detection may hold; they fix the memory of a workspace.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/detect/edge_blur.hpp"
+
 namespace graspd {
 
 namespace {
@@ -57,6 +59,7 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float sam
   const int stride = stride_for(frame, sampling, parameters.cells_per_voxel, workspace.map_cells.size());
   scene.map = make_scene_map(frame.camera, stride, workspace.map_cells);
   bin_frame(frame, threads, scene.map);
+  scene.map.edge_blur = measure_edge_blur(frame, sampling);
 
   const bool by_frame = parameters.background == BackgroundMode::automatic && !empty_bin.depth.empty();
   if (by_frame) {

@@ -22,8 +22,9 @@ struct MapCell {
 /// The scene as an image of surface points, binned so that a cell is a fixed share of a voxel. All
 /// stages after the preprocessing look here: a point is found by projecting it.
 struct SceneMap {
-  Camera camera;   ///< Of the map: one pixel is one cell.
-  int stride = 1;  ///< Frame pixels along the edge of a cell.
+  Camera camera;        ///< Of the map: one pixel is one cell.
+  int stride = 1;       ///< Frame pixels along the edge of a cell.
+  float edge_blur = 0;  ///< How far the sensor smears depth steps sideways (metres).
   std::span<MapCell> cells;
 
   [[nodiscard]] MapCell& at(int u, int v) { return cells[camera.index(u, v)]; }

@@ -80,7 +80,7 @@ Outcome consider(const Selection& selection, Instance& instance, SelectWorkspace
                  FixedVector<Instance>& accepted) {
   const Bank& bank = selection.banks[instance.bank];
   const VerifyParameters& parameters = selection.parameters;
-  const float tolerance = parameters.tolerance * bank.part->sampling;
+  const float tolerance = surface_tolerance(selection.map, bank, parameters);
   const std::size_t used = used_room(workspace);
   const RenderedModel model = render_model(selection.map, bank, instance.camera_from_part,
                                            workspace.front.subspan(used), workspace.back.subspan(used));

@@ -134,7 +134,33 @@ float outline_weight(float relief) {
   return std::clamp((shaped - relief) / (shaped - flat), 0.3F, 1.0F);
 }
 
+/// The share of the part's surface whose projection falls inside the image.
+float share_inside(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part) {
+  int inside = 0;
+  for (const SurfacePoint& surface : bank.surface) {
+    const Vector3 point = camera_from_part * surface.position;
+    if (point.z() < near_plane) continue;
+    const Eigen::Vector2f pixel = map.camera.project(point);
+    inside += map.camera.contains(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
+  }
+  return static_cast<float>(std::max(inside, 1)) / static_cast<float>(bank.surface.size());
+}
+
+bool touches_border(const ImageRectangle& rectangle, const Camera& camera) {
+  return rectangle.left == 0 || rectangle.top == 0 || rectangle.left + rectangle.width == camera.width ||
+         rectangle.top + rectangle.height == camera.height;
+}
+
 }  // namespace
+
+float surface_tolerance(const SceneMap& map, const Bank& bank, const VerifyParameters& parameters) {
+  constexpr float sharp = 0.1F;
+  constexpr float blurred = 0.5F;
+  const float sampling = bank.part->sampling;
+  const float share = std::clamp((map.edge_blur / sampling - sharp) / (blurred - sharp), 0.0F, 1.0F);
+  const float widest = std::max(parameters.tolerance, parameters.blurred_tolerance);
+  return (parameters.tolerance + share * (widest - parameters.tolerance)) * sampling;
+}
 
 RenderedModel render_model(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part,
                            std::span<float> front, std::span<float> back) {
@@ -146,6 +172,7 @@ RenderedModel render_model(const SceneMap& map, const Bank& bank, const RigidTra
     model.rectangle = {};
     return model;
   }
+  if (touches_border(model.rectangle, map.camera)) model.inside = share_inside(map, bank, camera_from_part);
   model.front = front.first(cells);
   render_depth(bank.mesh, camera_from_part, model.camera, model.front);
   if (back.size() >= cells) {
@@ -158,7 +185,7 @@ RenderedModel render_model(const SceneMap& map, const Bank& bank, const RigidTra
 Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RenderedModel& model,
                          const VerifyParameters& parameters, std::span<const std::uint16_t> claimed) {
   Evidence evidence;
-  const float tolerance = parameters.tolerance * bank.part->sampling;
+  const float tolerance = surface_tolerance(map, bank, parameters);
   std::array<float, 5> counts{};
   float rendered = 0;
   float below = 0;
@@ -208,13 +235,15 @@ Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Ban
   const float confirmed = count(CellVerdict::confirmed);
   const float against = count(CellVerdict::behind) + count(CellVerdict::contradicted);
   const float measured = confirmed + against + count(CellVerdict::occluded);
-  evidence.visible = confirmed / rendered;
-  evidence.measured = measured / rendered;
+  // What lies outside the image was not measured.
+  evidence.visible = model.inside * confirmed / rendered;
+  evidence.measured = model.inside * measured / rendered;
   evidence.overlap = measured > 0.0F ? confirmed / measured : 0.0F;
   evidence.purity = confirmed + against > 0.0F ? confirmed / (confirmed + against) : 0.0F;
   evidence.boundary = count(CellVerdict::behind) / rendered;
   evidence.below = below / rendered;
   evidence.residual = confirmed > 0.0F ? std::sqrt(squares / confirmed) / bank.part->sampling : 0.0F;
+  evidence.misfit = evidence.residual * bank.part->sampling / tolerance;
   const float voxel_cells = bank.part->sampling / map.footprint(depth_sum / rendered);
   evidence.confirmed = confirmed / (voxel_cells * voxel_cells);
   evidence.relief = normal_count > 0.0F ? relief_of(normals / normal_count) : 0.0F;
@@ -225,14 +254,15 @@ Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Ban
 }
 
 float score_of(const Evidence& evidence) {
-  // A logistic regression over the best hypotheses at each place in simulated bins of two dozen parts, right or
-  // wrong by MSSD.
+  // A logistic regression over the best hypotheses at each place in simulated bins of two dozen parts before sharp and
+  // blurred sensors, right or wrong by MSSD, and in bins that hold none of the parts that were looked for.
   const auto log_odds = [](float share) { return std::log((share + 0.02F) / (1.02F - share)); };
   // The outline of a right pose agrees in nine of ten places; what is above says nothing.
   const float outline = outline_weight(evidence.relief) * std::min(0.0F, log_odds(evidence.edge) - log_odds(0.9F));
-  const float sum = -2.3F + 0.65F * log_odds(evidence.visible) + 0.7F * std::log1p(evidence.confirmed) +
-                    0.65F * log_odds(evidence.purity) + outline + 0.34F * log_odds(evidence.contour) -
-                    7.8F * evidence.boundary - 8.6F * evidence.below - 4.9F * evidence.residual;
+  const float sum = -1.83F + 1.2F * log_odds(evidence.visible) + 0.98F * std::log1p(evidence.confirmed) +
+                    0.26F * log_odds(evidence.purity) + 1.81F * outline + 0.16F * log_odds(evidence.contour) +
+                    4.1F * std::min(evidence.relief, 0.3F) - 7.8F * evidence.boundary - 10.2F * evidence.below -
+                    7.83F * evidence.misfit;
   return evidence.confirmed > 0.0F ? 1.0F / (1.0F + std::exp(-sum)) : 0.0F;
 }
 

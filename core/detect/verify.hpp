@@ -17,9 +17,14 @@ namespace graspd {
 struct RenderedModel {
   ImageRectangle rectangle;  ///< In cells of the map.
   Camera camera;             ///< Of the rectangle.
+  float inside = 1;          ///< Share of the part's surface that projects into the image.
   std::span<float> front;    ///< Depth of the surface towards the sensor (metres), 0: no model.
   std::span<float> back;     ///< Depth of the last surface; empty when it was not asked for.
 };
+
+/// How far (metres) a model surface and the measured one may lie apart: `parameters.tolerance` for sensors that keep
+/// depth steps sharp, up to `parameters.blurred_tolerance` for those that smear them, which bend surfaces too.
+[[nodiscard]] float surface_tolerance(const SceneMap& map, const Bank& bank, const VerifyParameters& parameters);
 
 /// Renders the posed model into `storage`, the front and, when it holds both, the back. An empty
 /// rectangle when the model falls outside the image or the storage is too small for it.

@@ -117,6 +117,7 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(detect.parameters.cluster.plausible);
   GRASPD_COMPARE(detect.parameters.refine.judged);
   GRASPD_COMPARE(detect.parameters.verify.tolerance);
+  GRASPD_COMPARE(detect.parameters.verify.blurred_tolerance);
   GRASPD_COMPARE(detect.parameters.verify.minimum_measured);
   GRASPD_COMPARE(detect.capacity.map_cells);
   GRASPD_COMPARE(detect.capacity.scene_points);

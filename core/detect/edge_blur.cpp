@@ -1,0 +1,69 @@
+#include "core/detect/edge_blur.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace graspd {
+
+namespace {
+
+constexpr std::uint32_t fewest_steps = 100;
+/// Steps, in voxels: less may be a slope of the part, more is no neighbour of the part.
+constexpr float lowest_step = 3.0F;
+constexpr float highest_step = 15.0F;
+/// Half the width that a smeared step may have, in voxels.
+constexpr float reach_voxels = 1.5F;
+
+struct BlurSum {
+  double width = 0;  ///< Metres.
+  std::uint32_t steps = 0;
+};
+
+/// Takes the step around pixel `centre` of a line of pixels `pitch` apart, when there is one between two surfaces that
+/// face the sensor.
+void take_step(const float* centre, std::ptrdiff_t pitch, int reach, float sampling, float focal_length, BlurSum& sum) {
+  const auto at = [&](int k) { return centre[k * pitch]; };
+  const float before = at(-reach);
+  const float after = at(reach);
+  if (before <= 0.0F || after <= 0.0F) return;
+  const float step = after - before;
+  if (std::abs(step) < lowest_step * sampling || std::abs(step) > highest_step * sampling) return;
+  const float flat = 0.15F * std::abs(step);
+  const auto goes_on = [&](int k, float depth) { return at(k) > 0.0F && std::abs(at(k) - depth) < flat; };
+  if (!goes_on(-2 * reach, before) || !goes_on(2 * reach, after)) return;
+  int between = 0;
+  for (int k = -reach; k <= reach; ++k) {
+    const float share = (at(k) - before) / step;
+    between += at(k) > 0.0F && share > 0.2F && share < 0.8F ? 1 : 0;
+  }
+  sum.width += static_cast<float>(between) * std::min(before, after) / focal_length;
+  ++sum.steps;
+}
+
+}  // namespace
+
+float measure_edge_blur(const DepthFrame& frame, float sampling) {
+  constexpr int line_step = 4;
+  const Camera& camera = frame.camera;
+  BlurSum sum;
+  const auto reach_at = [&](float depth) {
+    return std::max(3, static_cast<int>(std::lround(reach_voxels * sampling * camera.fx / depth)));
+  };
+  const auto take_line = [&](int first_u, int first_v, int du, int dv, int length, float focal_length) {
+    const std::ptrdiff_t pitch = du + static_cast<std::ptrdiff_t>(dv) * camera.width;
+    const float* line = &frame.depth[camera.index(first_u, first_v)];
+    for (int k = 0; k < length; ++k) {
+      const float depth = line[k * pitch];
+      if (depth <= 0.0F) continue;
+      const int reach = reach_at(depth);
+      if (k >= 2 * reach && k + 2 * reach < length)
+        take_step(line + k * pitch, pitch, reach, sampling, focal_length, sum);
+    }
+  };
+  for (int v = 0; v < camera.height; v += line_step) take_line(0, v, 1, 0, camera.width, camera.fx);
+  for (int u = 0; u < camera.width; u += line_step) take_line(u, 0, 0, 1, camera.height, camera.fy);
+  return sum.steps < fewest_steps ? 0.0F : static_cast<float>(sum.width / sum.steps);
+}
+
+}  // namespace graspd

@@ -1,0 +1,61 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/detect/edge_blur.hpp"
+
+namespace graspd {
+namespace {
+
+constexpr float sampling = 0.004F;
+
+/// Plateaus 20 mm high and 40 mm apart, their flanks `flank` pixels wide in the image.
+struct Plateaus {
+  Camera camera{320, 240, 500, 500, 160, 120};
+  std::vector<float> depth = std::vector<float>(camera.pixel_count());
+
+  explicit Plateaus(int flank, float height = 0.02F) {
+    for (int v = 0; v < camera.height; ++v) {
+      for (int u = 0; u < camera.width; ++u) {
+        const int phase = u % 80;
+        const int rise = std::min(std::max(phase - 20, 0), flank);
+        const int fall = std::min(std::max(phase - 60, 0), flank);
+        const float up = flank > 0 ? static_cast<float>(rise - fall) / static_cast<float>(flank)
+                                   : (phase > 20 && phase <= 60 ? 1.0F : 0.0F);
+        depth[camera.index(u, v)] = 0.5F - height * up;
+      }
+    }
+  }
+  [[nodiscard]] DepthFrame frame() { return {camera, depth, 0, 0}; }
+};
+
+TEST(EdgeBlur, IsNothingForStepsFromPixelToPixel) { EXPECT_EQ(measure_edge_blur(Plateaus(0).frame(), sampling), 0.0F); }
+
+TEST(EdgeBlur, IsTheWidthBetweenTheSurfaces) {
+  // Six tenths of ten pixels of one millimetre lie between a fifth and four fifths of the step.
+  EXPECT_NEAR(measure_edge_blur(Plateaus(10).frame(), sampling), 0.006F, 0.0012F);
+  EXPECT_NEAR(measure_edge_blur(Plateaus(5).frame(), sampling), 0.003F, 0.0012F);
+}
+
+TEST(EdgeBlur, LooksAtStepsOfThePartsSizeOnly) {
+  EXPECT_EQ(measure_edge_blur(Plateaus(10, 0.005F).frame(), sampling), 0.0F);
+  EXPECT_EQ(measure_edge_blur(Plateaus(10, 0.1F).frame(), sampling), 0.0F);
+}
+
+TEST(EdgeBlur, IsNothingWhereNothingWasMeasuredBetweenTheSurfaces) {
+  Plateaus plateaus(10);
+  for (float& z : plateaus.depth) z = z > 0.4801F && z < 0.4999F ? 0.0F : z;
+  EXPECT_EQ(measure_edge_blur(plateaus.frame(), sampling), 0.0F);
+}
+
+TEST(EdgeBlur, DoesNotGuessFromAFewSteps) {
+  Plateaus plateaus(10);
+  for (int v = 4; v < plateaus.camera.height; ++v) {
+    for (int u = 0; u < plateaus.camera.width; ++u) plateaus.depth[plateaus.camera.index(u, v)] = 0;
+  }
+  EXPECT_EQ(measure_edge_blur(plateaus.frame(), sampling), 0.0F);
+}
+
+}  // namespace
+}  // namespace graspd
