@@ -70,6 +70,7 @@ int run_command_line(int argument_count, const char* const* arguments) {
   CLI::App* bank = app.add_subcommand("bank", "Make banks and look into them");
   bank->require_subcommand(1);
   add_bank_compile_command(*bank, outcome);
+  add_bank_learn_command(*bank, outcome);
   add_bank_show_command(*bank, outcome);
   add_validate_command(app, outcome);
   add_check_command(app, outcome);

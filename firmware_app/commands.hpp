@@ -14,6 +14,7 @@ void add_run_command(CLI::App& command_line, Status& outcome);
 void add_record_command(CLI::App& command_line, Status& outcome);
 void add_detect_command(CLI::App& command_line, Status& outcome);
 void add_bank_compile_command(CLI::App& bank_command, Status& outcome);
+void add_bank_learn_command(CLI::App& bank_command, Status& outcome);
 void add_bank_show_command(CLI::App& bank_command, Status& outcome);
 void add_validate_command(CLI::App& command_line, Status& outcome);
 void add_camera_commands(CLI::App& command_line, Status& outcome);

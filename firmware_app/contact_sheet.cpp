@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "firmware_app/candidate_sheet.hpp"
+
 namespace graspd {
 namespace {
 
@@ -16,23 +18,6 @@ constexpr int margin = 12;
 constexpr Colour background{24, 26, 30};
 constexpr Colour ink{225, 228, 232};
 constexpr Colour reference_colour{255, 176, 60};
-
-/// The rotation that turns a view's direction towards the reader, with the part's z upwards where it can.
-Matrix3 sheet_from_part(const Vector3& direction) {
-  const Vector3 towards = direction.normalized();
-  const Vector3 hint = std::abs(towards.z()) < 0.95F ? Vector3::UnitZ() : Vector3::UnitY();
-  const Vector3 right = hint.cross(towards).normalized();
-  Matrix3 rotation;
-  rotation.row(0) = right;
-  rotation.row(1) = -towards.cross(right);
-  rotation.row(2) = towards;
-  return rotation;
-}
-
-Colour shaded(const Vector3& normal_on_sheet) {
-  const float light = std::clamp(normal_on_sheet.dot(Vector3(-0.35F, -0.45F, 0.82F)), 0.0F, 1.0F);
-  return blend({40, 58, 84}, {214, 232, 250}, light);
-}
 
 void draw_view(Picture& sheet, const Bank& bank, std::size_t number, int left, int top) {
   const BankView& view = bank.views[number];

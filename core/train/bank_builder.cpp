@@ -29,6 +29,9 @@ constexpr float samples_per_voxel = 24.0F;
 constexpr float least_samples = 16000.0F;
 constexpr float most_samples = 60000.0F;
 constexpr float doubtful_symmetry = 0.02F;  ///< Mean distance, as a share of the diameter.
+constexpr float least_sampling = 0.01F;
+constexpr float most_sampling = 0.2F;
+constexpr std::size_t least_cut_out_points = 30;
 constexpr float crease_angle = std::numbers::pi_v<float> / 6.0F;
 
 /// The arrays of a bank while it is being made.
@@ -51,7 +54,8 @@ struct BankStorage {
 /// What makes no sense in the parameters, or null.
 const char* parameter_fault(const BankBuildParameters& p) {
   const auto within = [](float value, float low, float high) { return value >= low && value <= high; };
-  if (!within(p.sampling, 0.01F, 0.2F)) return "sampling must lie between 0.01 and 0.2 of the diameter";
+  if (!within(p.sampling, least_sampling, most_sampling))
+    return "sampling must lie between 0.01 and 0.2 of the diameter";
   if (p.angle_bins < 4 || p.angle_bins > 60) return "angle_bins must lie between 4 and 60";
   if (p.candidate_views < 6 || p.candidate_views > 2000) return "candidate_views must lie between 6 and 2000";
   if (p.maximum_views < 1 || p.maximum_view_points < 10) return "at least one view of 10 points is needed";
@@ -59,8 +63,16 @@ const char* parameter_fault(const BankBuildParameters& p) {
   if (!within(p.minimum_completeness, 0.0F, 1.0F)) return "minimum_completeness must lie between 0 and 1";
   if (!within(p.maximum_incidence, 0.2F, 1.56F)) return "maximum_incidence must lie between 0.2 and 1.56 radians";
   if (!within(p.sensor_distance, 0.01F, 100.0F)) return "sensor_distance must lie between 0.01 and 100 metres";
+  if (p.model_points < 0 || p.model_points > 20000) return "model_points must lie between 0 and 20000";
   if (p.surface_points < 100 || p.surface_points > 20000) return "surface_points must lie between 100 and 20000";
   return nullptr;
+}
+
+/// As a share of the diameter.
+float sampling_of(const BankBuildParameters& parameters, const PartMesh& mesh) {
+  if (parameters.model_points == 0) return parameters.sampling;
+  const float edge = std::sqrt(mesh.area / static_cast<float>(parameters.model_points));
+  return std::clamp(edge / mesh.diameter, least_sampling, most_sampling);
 }
 
 void describe_part(const PartDescription& part, const PartMesh& mesh, const BankBuildParameters& parameters,
@@ -73,7 +85,7 @@ void describe_part(const PartDescription& part, const PartMesh& mesh, const Bank
   out.box_min = mesh.box_min;
   out.box_max = mesh.box_max;
   out.centre = 0.5F * (mesh.box_min + mesh.box_max);
-  out.sampling = parameters.sampling * mesh.diameter;
+  out.sampling = sampling_of(parameters, mesh) * mesh.diameter;
   out.thresholds = part.thresholds;
   out.symmetry_continuous = storage.symmetry.continuous ? 1 : 0;
   out.symmetry_axis = storage.symmetry.axis;
@@ -86,7 +98,7 @@ void add_surface(const PartMesh& mesh, const MeshView& occluder, const ViewingCo
   std::vector<OrientedPoint> reachable;
   for (std::size_t i = 0; i < candidates.samples.size(); ++i) {
     bool seen = false;
-    for (std::size_t d = 0; d < candidates.directions.size() && !seen; ++d) seen = candidates.visibility.seen.at(d, i);
+    for (std::size_t d = 0; d < candidates.rendered && !seen; ++d) seen = candidates.visibility.seen.at(d, i);
     if (seen) reachable.push_back(candidates.samples[i]);
   }
   const auto wanted = static_cast<std::size_t>(parameters.surface_points);
@@ -124,6 +136,18 @@ SymmetryGroup settle_symmetry(const PartDescription& part, const PartMesh& mesh,
   return group;
 }
 
+/// Keeps as many points as are allowed, spread evenly.
+void limit_points(std::size_t most, float diameter, std::vector<ViewPoint>& points) {
+  if (points.size() <= most) return;
+  std::vector<OrientedPoint> places;
+  for (const ViewPoint& p : points) places.push_back(p.point);
+  std::vector<std::size_t> order = farthest_point_order(places, most, 0.02F * diameter);
+  std::sort(order.begin(), order.end());
+  std::vector<ViewPoint> kept;
+  for (const std::size_t i : order) kept.push_back(points[i]);
+  points = std::move(kept);
+}
+
 void add_views(std::span<const GeneralisedView> views, std::span<const RefinedView> refined,
                const CandidateViews& candidates, BankStorage& storage) {
   for (std::size_t v = 0; v < views.size(); ++v) {
@@ -142,6 +166,18 @@ void add_views(std::span<const GeneralisedView> views, std::span<const RefinedVi
     for (const ViewPoint& p : views[v].others) storage.view_points.push_back(p.point);
     storage.views.push_back(view);
   }
+}
+
+/// Everything as one view: the model that banks of many views are compared with.
+std::vector<RefinedView> whole_part(const CandidateViews& candidates, BankReport& report) {
+  RefinedView view;
+  for (std::size_t i = 0; i < candidates.directions.size(); ++i) {
+    if (candidates.eligible(i)) view.fused.push_back(i);
+  }
+  view.candidate = view.fused.front();
+  view.completeness = 1.0F;
+  report.views_kept = 1;
+  return {view};
 }
 
 Bank bank_over(const BankStorage& storage, const PartDescription& part) {
@@ -164,12 +200,35 @@ Bank bank_over(const BankStorage& storage, const PartDescription& part) {
   return bank;
 }
 
+/// A few of the points that each candidate shows, for the report.
+void add_pictures(const CandidateViews& candidates, BankReport& report) {
+  constexpr std::size_t pictured = 400;
+  for (std::size_t i = 0; i < report.candidates.size(); ++i) {
+    if (!candidates.eligible(i)) continue;
+    const std::vector<OrientedPoint> shown = shown_points(candidates, i);
+    const std::size_t step = std::max<std::size_t>(1, shown.size() / pictured);
+    for (std::size_t p = 0; p < shown.size(); p += step) report.candidates[i].points.push_back(shown[p]);
+  }
+  std::size_t next = 0;
+  std::erase_if(report.candidates, [&](const CandidateReport&) { return !candidates.eligible(next++); });
+}
+
 }  // namespace
 
 Result<std::vector<std::byte>> build_bank(const PartDescription& part, const BankBuildParameters& parameters,
                                           BankReport& report, const std::function<void(float)>& progress) {
+  return learn_bank(part, {}, true, parameters, report, progress);
+}
+
+Result<std::vector<std::byte>> learn_bank(const PartDescription& part, std::vector<CutOut> cut_outs, bool rendered,
+                                          const BankBuildParameters& parameters, BankReport& report,
+                                          const std::function<void(float)>& progress) {
   if (const char* fault = parameter_fault(parameters); fault != nullptr) {
     return Status(StatusCode::bad_configuration, fault);
+  }
+  std::erase_if(cut_outs, [](const CutOut& cut) { return cut.points.size() < least_cut_out_points; });
+  if (cut_outs.empty() && !rendered) {
+    return Status(StatusCode::bad_frame, "the frames show the part nowhere well enough to learn a view");
   }
   auto prepared = prepare_mesh(part.mesh);
   if (!prepared.ok()) return prepared.status();
@@ -190,27 +249,35 @@ Result<std::vector<std::byte>> build_bank(const PartDescription& part, const Ban
   const float voxel = storage.part.sampling;
   const auto sample_count = static_cast<std::size_t>(
       std::clamp(samples_per_voxel * mesh.area / (voxel * voxel), least_samples, most_samples));
-  const std::vector<OrientedPoint> samples =
-      sample_surface(mesh.mesh, smooth_corner_normals(mesh.mesh, crease_angle), sample_count);
-  const std::vector<Vector3> directions = view_sphere(parameters.candidate_views);
-  const Visibility visibility = find_visibility(occluder.view(), samples, directions, conditions);
-  const CandidateViews candidates{directions, samples, visibility};
+  CandidateViews candidates =
+      rendered_candidates(sample_surface(mesh.mesh, smooth_corner_normals(mesh.mesh, crease_angle), sample_count),
+                          view_sphere(parameters.candidate_views), occluder.view(), conditions, storage.symmetry);
   progress(0.4F);
   add_surface(mesh, occluder.view(), conditions, candidates, parameters, storage);
+  progress(0.6F);
+  if (!rendered) drop_rendered(candidates);
+  if (!cut_outs.empty()) {
+    for (CutOut& cut : cut_outs) align_to_surface(candidates.samples, voxel, cut);
+    add_cut_outs(std::move(cut_outs), occluder.view(), conditions, storage.symmetry, 0.6F * voxel, candidates);
+  }
   progress(0.7F);
 
+  report.resting = resting_poses(occluder, centre_of_mass(mesh.mesh, mesh.closed()), storage.symmetry);
   const std::vector<RefinedView> refined =
-      refine_views(candidates, storage.symmetry, mesh.diameter, parameters, report);
-  const auto orbits = direction_orbits(directions, storage.symmetry);
+      parameters.full_model ? whole_part(candidates, report)
+                            : refine_views(candidates, storage.symmetry, mesh.diameter, parameters, report);
+  const GeneralisationSettings generalisation{parameters.generalisation, voxel, storage.part.centre};
   std::vector<GeneralisedView> views;
   for (const RefinedView& view : refined) {
-    views.push_back(generalise_view(view, candidates, orbits, storage.symmetry, storage.part.centre, voxel));
+    views.push_back(generalise_view(view, candidates, storage.symmetry, generalisation));
+    limit_points(static_cast<std::size_t>(parameters.maximum_view_points), mesh.diameter, views.back().references);
   }
+  add_pictures(candidates, report);
   progress(0.8F);
 
   storage.grid = {voxel, static_cast<std::uint32_t>(mesh.diameter / voxel) + 1,
                   static_cast<std::uint32_t>(parameters.angle_bins)};
-  storage.table = make_ppf_table(views, candidates, storage.grid, {2.0F * voxel});
+  storage.table = make_ppf_table(views, candidates, storage.grid, {2.0F * voxel, parameters.full_model});
   add_views(views, refined, candidates, storage);
   progress(0.9F);
 

@@ -10,6 +10,8 @@
 #include "core/geometry/camera.hpp"
 #include "core/geometry/mesh.hpp"
 #include "core/status.hpp"
+#include "core/train/cut_out.hpp"
+#include "core/train/resting_poses.hpp"
 
 namespace graspd {
 
@@ -26,7 +28,14 @@ struct PartDescription {
   VerifyThresholds thresholds;
 };
 
-/// How a bank is made from CAD.
+/// How a view is kept from being about one instance alone (paper 2.3).
+enum class Generalisation : std::uint8_t {
+  none,
+  fuse,    ///< United with all that it stands for, then averaged over voxels.
+  smooth,  ///< Its own points and normals, averaged with their neighbours'.
+};
+
+/// How a bank is made.
 struct BankBuildParameters {
   float sampling = 0.05F;     ///< Voxel edge of the view points, as a share of the diameter.
   int angle_bins = 12;        ///< 15 degrees, as in the paper.
@@ -39,17 +48,45 @@ struct BankBuildParameters {
       1.31F;                      ///< The sensor sees surfaces up to this angle from the normal (radians, 75 degrees).
   float sensor_distance = 0.75F;  ///< Metres from the sensor to the part.
   int surface_points = 2048;
+  bool refinement = true;  ///< False: evenly spread candidates as they are (ablation).
+  Generalisation generalisation = Generalisation::fuse;
+  bool full_model = false;  ///< One view of all sides and all pairs, in place of many views (ablation).
+  int model_points = 0;     ///< Not 0: in place of `sampling`, one by which the whole surface makes so many points.
+};
+
+/// What became of a candidate view.
+enum class CandidateFate : std::uint8_t {
+  unused,  ///< No room left, or not asked for.
+  kept,
+  fused,       ///< A kept view holds its points.
+  merged,      ///< A kept view stands for it.
+  incomplete,  ///< Shows too little of the part.
+  degenerate,  ///< Does not fix the pose.
+};
+
+/// A candidate view in the report.
+struct CandidateReport {
+  Vector3 direction = Vector3::UnitZ();  ///< From the part towards the sensor, part frame.
+  std::string source;                    ///< The frame that it was cut out of; empty: rendered.
+  float completeness = 0;
+  CandidateFate fate = CandidateFate::unused;
+  std::size_t view = 0;               ///< Kept as, or merged or fused into.
+  std::vector<OrientedPoint> points;  ///< Some of what it shows, part frame.
 };
 
 /// What became of a build, for the report on the terminal and the contact sheet.
 struct BankReport {
   int views_rendered = 0;
+  int views_cut_out = 0;  ///< Candidates from frames.
   int views_incomplete = 0;
   int views_degenerate = 0;
-  int views_merged = 0;
+  int views_merged = 0;  ///< Those that were fused among them.
+  int views_fused = 0;
   int views_kept = 0;
   bool symmetry_proposed = false;    ///< The symmetries were found on the mesh, not given.
   std::vector<std::string> remarks;  ///< Lines worth showing: symmetries found, open meshes, faces dropped.
+  std::vector<CandidateReport> candidates;
+  std::vector<RestingPose> resting;  ///< How the part lies on a floor, most frequent first.
 };
 
 /// Makes a bank (paper 2.2 and 2.3): views from the mesh, refined and generalised, the PPF table, the
@@ -59,5 +96,11 @@ struct BankReport {
 [[nodiscard]] Result<std::vector<std::byte>> build_bank(const PartDescription& part,
                                                         const BankBuildParameters& parameters, BankReport& report,
                                                         const std::function<void(float)>& progress);
+
+/// As build_bank, with views that were cut out of frames among the candidates: they are kept before rendered ones
+/// (paper 2.2). Without `rendered`, they are the only ones; then fails with bad_frame when there are none.
+[[nodiscard]] Result<std::vector<std::byte>> learn_bank(const PartDescription& part, std::vector<CutOut> cut_outs,
+                                                        bool rendered, const BankBuildParameters& parameters,
+                                                        BankReport& report, const std::function<void(float)>& progress);
 
 }  // namespace graspd

@@ -12,16 +12,16 @@ struct CellEntry {
   PpfEntry entry;
 };
 
-/// For each point, the bits of the view's directions that see it.
-std::vector<std::uint64_t> seeing_directions(std::span<const ViewPoint> points, const GeneralisedView& view,
-                                             const CandidateViews& candidates) {
-  const std::size_t words = view.directions.size();
+/// For each point, a row of bits: which of the view's candidates see it.
+std::vector<std::uint64_t> seeing_candidates(std::span<const ViewPoint> points, const GeneralisedView& view,
+                                             const CandidateViews& candidates, std::size_t words) {
   std::vector<std::uint64_t> masks(points.size() * words, 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t d = 0; d < candidates.directions.size(); ++d) {
-      if (candidates.visibility.seen.at(d, points[i].sample)) masks[i * words + d / 64] |= std::uint64_t{1} << (d % 64);
+    for (std::size_t d = 0; d < view.seen_from.size(); ++d) {
+      if (candidates.visibility.seen.at(view.seen_from[d], points[i].sample)) {
+        masks[i * words + d / 64] |= std::uint64_t{1} << (d % 64);
+      }
     }
-    for (std::size_t w = 0; w < words; ++w) masks[i * words + w] &= view.directions[w];
   }
   return masks;
 }
@@ -29,9 +29,9 @@ std::vector<std::uint64_t> seeing_directions(std::span<const ViewPoint> points, 
 void add_view(const GeneralisedView& view, std::uint32_t first_reference, const CandidateViews& candidates,
               const PpfGrid& grid, const PairSelection& selection, std::vector<CellEntry>& entries) {
   const std::vector<ViewPoint>& partners = view.partners.empty() ? view.references : view.partners;
-  const std::size_t words = view.directions.size();
-  const std::vector<std::uint64_t> reference_masks = seeing_directions(view.references, view, candidates);
-  const std::vector<std::uint64_t> partner_masks = seeing_directions(partners, view, candidates);
+  const std::size_t words = (view.seen_from.size() + 63) / 64;
+  const std::vector<std::uint64_t> reference_masks = seeing_candidates(view.references, view, candidates, words);
+  const std::vector<std::uint64_t> partner_masks = seeing_candidates(partners, view, candidates, words);
   for (std::size_t r = 0; r < view.references.size(); ++r) {
     const OrientedPoint& reference = view.references[r].point;
     const RigidTransform local = local_from_point(reference);
@@ -39,7 +39,7 @@ void add_view(const GeneralisedView& view, std::uint32_t first_reference, const 
       const OrientedPoint& partner = partners[p].point;
       const PpfFeature feature = ppf_feature(reference, partner);
       if (feature.distance < selection.minimum_distance) continue;
-      bool together = false;
+      bool together = selection.apart;
       for (std::size_t w = 0; w < words; ++w) {
         together = together || (reference_masks[r * words + w] & partner_masks[p * words + w]) != 0;
       }

@@ -18,10 +18,11 @@ struct PpfTable {
 /// Which pairs enter the table.
 struct PairSelection {
   float minimum_distance = 0;  ///< Metres: nearer points say little more than their normals.
+  bool apart = false;          ///< Also pairs that no candidate sees together.
 };
 
-/// Enters every pair (reference, partner) of every view that one of the view's directions sees
-/// together. References are numbered view after view.
+/// Enters every pair (reference, partner) of every view that one of the view's candidates sees
+/// together, or every pair. References are numbered view after view.
 [[nodiscard]] PpfTable make_ppf_table(std::span<const GeneralisedView> views, const CandidateViews& candidates,
                                       const PpfGrid& grid, const PairSelection& selection);
 

@@ -12,8 +12,8 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int continuous_turns = 36;
 constexpr float minimum_conditioning = 0.001F;
+constexpr float fusion_overlap = 0.8F;  ///< Views that share this much of the larger one are fused.
 
 std::size_t count_bits(std::span<const std::uint64_t> row) {
   return std::accumulate(row.begin(), row.end(), std::size_t{0}, [](std::size_t sum, std::uint64_t word) {
@@ -29,6 +29,136 @@ std::size_t count_common(std::span<const std::uint64_t> a, std::span<const std::
 
 float share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0F : static_cast<float>(part) / static_cast<float>(whole);
+}
+
+/// The candidate's points, how many, and what it must be judged by.
+struct Judged {
+  std::vector<std::size_t> visible;
+  std::vector<float> completeness;
+  std::size_t largest = 0;  ///< Of the rendered views.
+};
+
+Judged judge_candidates(const CandidateViews& candidates) {
+  Judged judged;
+  for (std::size_t i = 0; i < candidates.directions.size(); ++i) {
+    judged.visible.push_back(count_bits(candidates.visibility.seen.row(i)));
+    judged.completeness.push_back(
+        std::min(1.0F, share(judged.visible[i], count_bits(candidates.visibility.facing.row(i)))));
+    if (i < candidates.rendered) judged.largest = std::max(judged.largest, judged.visible[i]);
+  }
+  if (judged.largest == 0) judged.largest = *std::max_element(judged.visible.begin(), judged.visible.end());
+  return judged;
+}
+
+/// Enters every candidate into the report, still without a fate.
+void list_candidates(const CandidateViews& candidates, const Judged& judged, BankReport& report) {
+  report.candidates.clear();
+  for (std::size_t i = 0; i < candidates.directions.size(); ++i) {
+    CandidateReport entry;
+    entry.direction = candidates.directions[i];
+    entry.completeness = judged.completeness[i];
+    if (i >= candidates.rendered) {
+      entry.source = candidates.cut_outs[candidates.twins[i - candidates.rendered].cut_out].source;
+    }
+    report.candidates.push_back(entry);
+    if (candidates.eligible(i)) ++(i < candidates.rendered ? report.views_rendered : report.views_cut_out);
+  }
+}
+
+/// What is left once incomplete and degenerate candidates are out.
+std::vector<std::size_t> usable_candidates(const CandidateViews& candidates, const Judged& judged,
+                                           const SymmetryGroup& symmetry, float diameter,
+                                           const BankBuildParameters& parameters, BankReport& report) {
+  std::vector<std::size_t> usable;
+  for (std::size_t i = 0; i < candidates.directions.size(); ++i) {
+    if (!candidates.eligible(i)) continue;
+    const std::span<const std::uint64_t> seen = candidates.visibility.seen.row(i);
+    if (judged.completeness[i] < parameters.minimum_completeness ||
+        share(judged.visible[i], judged.largest) < parameters.minimum_completeness) {
+      ++report.views_incomplete;
+      report.candidates[i].fate = CandidateFate::incomplete;
+    } else if (pose_conditioning(candidates.samples, seen, symmetry, 0.5F * diameter) < minimum_conditioning) {
+      ++report.views_degenerate;
+      report.candidates[i].fate = CandidateFate::degenerate;
+    } else {
+      usable.push_back(i);
+    }
+  }
+  if (usable.empty()) {
+    report.remarks.emplace_back("no view fixes the pose by itself: the fullest one is kept");
+    std::size_t fullest = 0;
+    for (std::size_t i = 0; i < judged.visible.size(); ++i) {
+      if (candidates.eligible(i) && judged.visible[i] > judged.visible[fullest]) fullest = i;
+    }
+    usable.push_back(fullest);
+  }
+  return usable;
+}
+
+/// The largest share of `candidate` that a kept view or a twin of it shows, and which view that is.
+struct Overlap {
+  float share = 0.0F;
+  std::size_t view = 0;
+};
+
+Overlap largest_overlap(std::size_t candidate, std::span<const RefinedView> kept, const CandidateViews& candidates,
+                        const Judged& judged) {
+  const VisibilityRows& seen = candidates.visibility.seen;
+  Overlap largest;
+  for (std::size_t v = 0; v < kept.size(); ++v) {
+    for (const std::size_t twin : candidates.orbits[kept[v].candidate]) {
+      const float overlap = share(count_common(seen.row(candidate), seen.row(twin)), judged.visible[candidate]);
+      if (overlap > largest.share) largest = {overlap, v};
+    }
+  }
+  return largest;
+}
+
+/// What the views fuse with: everything that shows nearly the same.
+void find_fused(const CandidateViews& candidates, const Judged& judged, std::vector<RefinedView>& kept) {
+  const VisibilityRows& seen = candidates.visibility.seen;
+  for (RefinedView& view : kept) {
+    for (std::size_t j = 0; j < candidates.directions.size(); ++j) {
+      const std::size_t larger = std::max(judged.visible[j], judged.visible[view.candidate]);
+      const bool fuses = share(count_common(seen.row(view.candidate), seen.row(j)), larger) >= fusion_overlap;
+      if (fuses || j == view.candidate) view.fused.push_back(j);
+    }
+  }
+}
+
+/// Tells merged candidates whose points a view holds from those that were only left out.
+void report_fused(const CandidateViews& candidates, std::span<const RefinedView> kept, BankReport& report) {
+  for (std::size_t v = 0; v < kept.size(); ++v) {
+    for (const std::size_t i : kept[v].fused) {
+      if (!candidates.eligible(i) || report.candidates[i].fate != CandidateFate::merged) continue;
+      report.candidates[i].fate = CandidateFate::fused;
+      report.candidates[i].view = v;
+      ++report.views_fused;
+    }
+  }
+}
+
+/// The first `count` of the candidates, each as far as can be from those before.
+std::vector<RefinedView> evenly_spread(const CandidateViews& candidates, const Judged& judged, std::size_t count) {
+  std::vector<RefinedView> kept;
+  while (kept.size() < count) {
+    std::size_t best = candidates.directions.size();
+    float least = 2.0F;
+    for (std::size_t i = 0; i < candidates.directions.size(); ++i) {
+      if (!candidates.eligible(i) || judged.visible[i] == 0) continue;
+      float nearest = -1.0F;
+      for (const RefinedView& view : kept) {
+        nearest = std::max(nearest, candidates.directions[i].dot(candidates.directions[view.candidate]));
+      }
+      if (nearest < least && nearest < 0.9999F) {
+        least = nearest;
+        best = i;
+      }
+    }
+    if (best == candidates.directions.size()) break;
+    kept.push_back({best, {}, judged.completeness[best]});
+  }
+  return kept;
 }
 
 }  // namespace
@@ -67,76 +197,41 @@ float pose_conditioning(std::span<const OrientedPoint> samples, std::span<const 
   return static_cast<float>(solver.eigenvalues()(0) / solver.eigenvalues()(5));
 }
 
-std::vector<std::vector<std::size_t>> direction_orbits(std::span<const Vector3> directions,
-                                                       const SymmetryGroup& symmetry) {
-  const std::vector<RigidTransform> members = sampled_members(symmetry, continuous_turns);
-  std::vector<std::vector<std::size_t>> orbits(directions.size());
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    for (const RigidTransform& member : members) {
-      const Vector3 moved = member.rotation * directions[i];
-      std::size_t nearest = 0;
-      for (std::size_t j = 1; j < directions.size(); ++j) {
-        if (directions[j].dot(moved) > directions[nearest].dot(moved)) nearest = j;
-      }
-      orbits[i].push_back(nearest);
-    }
-    std::sort(orbits[i].begin(), orbits[i].end());
-    orbits[i].erase(std::unique(orbits[i].begin(), orbits[i].end()), orbits[i].end());
-  }
-  return orbits;
-}
-
 std::vector<RefinedView> refine_views(const CandidateViews& candidates, const SymmetryGroup& symmetry, float diameter,
                                       const BankBuildParameters& parameters, BankReport& report) {
-  const std::size_t count = candidates.directions.size();
-  const VisibilityRows& seen = candidates.visibility.seen;
-  std::vector<std::size_t> visible(count);
-  std::vector<float> completeness(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    visible[i] = count_bits(seen.row(i));
-    completeness[i] = share(visible[i], count_bits(candidates.visibility.facing.row(i)));
-  }
-  const std::size_t largest = *std::max_element(visible.begin(), visible.end());
-  report.views_rendered = static_cast<int>(count);
-
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (completeness[i] < parameters.minimum_completeness ||
-        share(visible[i], largest) < parameters.minimum_completeness) {
-      ++report.views_incomplete;
-    } else if (pose_conditioning(candidates.samples, seen.row(i), symmetry, 0.5F * diameter) < minimum_conditioning) {
-      ++report.views_degenerate;
-    } else {
-      order.push_back(i);
-    }
-  }
-  if (order.empty()) {
-    report.remarks.emplace_back("no view fixes the pose by itself: the fullest one is kept");
-    order.push_back(static_cast<std::size_t>(std::max_element(visible.begin(), visible.end()) - visible.begin()));
-  }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return visible[a] > visible[b]; });
-
-  const auto orbits = direction_orbits(candidates.directions, symmetry);
+  const Judged judged = judge_candidates(candidates);
+  list_candidates(candidates, judged, report);
+  const auto most = static_cast<std::size_t>(parameters.maximum_views);
   std::vector<RefinedView> kept;
-  for (const std::size_t i : order) {
-    float overlap = 0.0F;
-    for (const RefinedView& view : kept) {
-      for (const std::size_t j : orbits[view.candidate]) {
-        overlap = std::max(overlap, share(count_common(seen.row(i), seen.row(j)), visible[i]));
+  if (parameters.refinement) {
+    std::vector<std::size_t> order = usable_candidates(candidates, judged, symmetry, diameter, parameters, report);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      const bool a_measured = a >= candidates.rendered;
+      const bool b_measured = b >= candidates.rendered;
+      return a_measured != b_measured ? a_measured : judged.visible[a] > judged.visible[b];
+    });
+    for (const std::size_t i : order) {
+      const Overlap overlap = largest_overlap(i, kept, candidates, judged);
+      if (overlap.share > parameters.maximum_overlap) {
+        ++report.views_merged;
+        report.candidates[i].fate = CandidateFate::merged;
+        report.candidates[i].view = overlap.view;
+      } else if (kept.size() < most) {
+        kept.push_back({i, {}, judged.completeness[i]});
       }
     }
-    if (overlap > parameters.maximum_overlap) {
-      ++report.views_merged;
-    } else if (kept.size() < static_cast<std::size_t>(parameters.maximum_views)) {
-      kept.push_back({i, {}, completeness[i]});
-    }
+  } else {
+    kept = evenly_spread(candidates, judged, most);
   }
-  constexpr float fusion_overlap = 0.8F;
-  for (RefinedView& view : kept) {
-    for (std::size_t j = 0; j < count; ++j) {
-      const std::size_t common = count_common(seen.row(view.candidate), seen.row(j));
-      if (share(common, std::max(visible[j], visible[view.candidate])) >= fusion_overlap) view.fused.push_back(j);
-    }
+  for (std::size_t v = 0; v < kept.size(); ++v) {
+    report.candidates[kept[v].candidate].fate = CandidateFate::kept;
+    report.candidates[kept[v].candidate].view = v;
+  }
+  if (parameters.generalisation == Generalisation::fuse) {
+    find_fused(candidates, judged, kept);
+    report_fused(candidates, kept, report);
+  } else {
+    for (RefinedView& view : kept) view.fused = {view.candidate};
   }
   report.views_kept = static_cast<int>(kept.size());
   return kept;

@@ -5,22 +5,14 @@
 #include <vector>
 
 #include "core/train/bank_builder.hpp"
-#include "core/train/self_visibility.hpp"
-#include "core/train/symmetry_group.hpp"
+#include "core/train/candidate_views.hpp"
 
 namespace graspd {
 
-/// The views that a set of directions offers, over one set of surface samples.
-struct CandidateViews {
-  std::span<const Vector3> directions;
-  std::span<const OrientedPoint> samples;
-  const Visibility& visibility;
-};
-
-/// A view that was kept, and the candidates that are fused into it.
+/// A view that was kept, and the candidates that it stands for.
 struct RefinedView {
-  std::size_t candidate = 0;       ///< Its own direction.
-  std::vector<std::size_t> fused;  ///< Itself and the candidates that overlap it enough (paper 2.3).
+  std::size_t candidate = 0;
+  std::vector<std::size_t> fused;  ///< Itself and the candidates or twins that are fused into it (paper 2.3).
   float completeness = 0;
 };
 
@@ -30,12 +22,11 @@ struct RefinedView {
 [[nodiscard]] float pose_conditioning(std::span<const OrientedPoint> samples, std::span<const std::uint64_t> seen,
                                       const SymmetryGroup& symmetry, float length);
 
-/// For each candidate, the candidates that a symmetry carries it to, itself among them; ascending.
-[[nodiscard]] std::vector<std::vector<std::size_t>> direction_orbits(std::span<const Vector3> directions,
-                                                                     const SymmetryGroup& symmetry);
-
-/// Drops incomplete and degenerate candidates and those that overlap a kept view too much, modulo
-/// symmetry (paper 2.2). Counts what it dropped in `report`. At least one view is kept.
+/// Drops incomplete and degenerate candidates and those that overlap a kept view too much, modulo symmetry
+/// (paper 2.2); the fullest views are kept first, those cut out of frames before rendered ones. With fusion, each kept
+/// view is joined by all candidates that show nearly the same (paper 2.3). Counts what it dropped in `report`, and
+/// the fate of each candidate. At least one view is kept. Without refinement, evenly spread candidates are kept as
+/// they are.
 [[nodiscard]] std::vector<RefinedView> refine_views(const CandidateViews& candidates, const SymmetryGroup& symmetry,
                                                     float diameter, const BankBuildParameters& parameters,
                                                     BankReport& report);

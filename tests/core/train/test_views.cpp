@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "core/train/corner_normals.hpp"
 #include "core/train/generalisation.hpp"
 #include "core/train/part_mesh.hpp"
 #include "core/train/self_visibility.hpp"
@@ -17,18 +20,22 @@ constexpr float cut_off = 1.31F;
 struct Studio {
   Mesh mesh;
   float diameter;
-  std::vector<OrientedPoint> samples;
-  std::vector<Vector3> directions;
-  Visibility visibility;
+  CandidateViews candidates;
 
-  Studio(const Mesh& shape, float size, std::vector<Vector3> from)
+  Studio(const Mesh& shape, float size, std::vector<Vector3> from, const SymmetryGroup& symmetry = {})
       : mesh(shape),
         diameter(size),
-        samples(sample_surface(mesh, smooth_corner_normals(mesh, 0.52F), 6000)),
-        directions(std::move(from)),
-        visibility(find_visibility(mesh.view(), samples, directions, {Vector3::Zero(), diameter, 0.75F, cut_off})) {}
+        candidates(rendered_candidates(sample_surface(mesh, smooth_corner_normals(mesh, 0.52F), 6000), std::move(from),
+                                       mesh.view(), conditions(), symmetry)) {}
 
-  [[nodiscard]] CandidateViews candidates() const { return {directions, samples, visibility}; }
+  [[nodiscard]] ViewingConditions conditions() const { return {Vector3::Zero(), diameter, 0.75F, cut_off}; }
+  [[nodiscard]] const std::vector<OrientedPoint>& samples() const { return candidates.samples; }
+  [[nodiscard]] const Visibility& visibility() const { return candidates.visibility; }
+
+  [[nodiscard]] std::vector<RefinedView> refined(const SymmetryGroup& symmetry, const BankBuildParameters& parameters,
+                                                 BankReport& report) const {
+    return refine_views(candidates, symmetry, diameter, parameters, report);
+  }
 };
 
 TEST(ViewSphere, DirectionsAreUnitAndEven) {
@@ -51,11 +58,11 @@ TEST(ViewSphere, DirectionsAreUnitAndEven) {
 
 TEST(SelfVisibility, ABoxShowsTheThreeFacesOfACorner) {
   const Studio studio(shapes::box(0.06F, 0.05F, 0.04F), 0.088F, {Vector3(1, 1, 1).normalized(), Vector3::UnitZ()});
-  for (std::size_t i = 0; i < studio.samples.size(); ++i) {
-    const Vector3& normal = studio.samples[i].normal;
-    EXPECT_EQ(studio.visibility.seen.at(0, i), normal.sum() > 0.0F) << normal.transpose();
-    EXPECT_EQ(studio.visibility.seen.at(1, i), normal.z() > 0.5F) << normal.transpose();
-    EXPECT_EQ(studio.visibility.facing.at(1, i), normal.z() > 0.5F);
+  for (std::size_t i = 0; i < studio.samples().size(); ++i) {
+    const Vector3& normal = studio.samples()[i].normal;
+    EXPECT_EQ(studio.visibility().seen.at(0, i), normal.sum() > 0.0F) << normal.transpose();
+    EXPECT_EQ(studio.visibility().seen.at(1, i), normal.z() > 0.5F) << normal.transpose();
+    EXPECT_EQ(studio.visibility().facing.at(1, i), normal.z() > 0.5F);
   }
 }
 
@@ -66,13 +73,13 @@ TEST(SelfVisibility, OneLegOfABracketHidesTheOther) {
                       {Vector3(-1.0F, 0.35F, 0).normalized(), Vector3(1.0F, 1.0F, 0).normalized()});
   std::size_t hidden = 0;
   std::size_t open = 0;
-  for (std::size_t i = 0; i < studio.samples.size(); ++i) {
-    const OrientedPoint& p = studio.samples[i];
+  for (std::size_t i = 0; i < studio.samples().size(); ++i) {
+    const OrientedPoint& p = studio.samples()[i];
     const bool inner_face = p.normal.y() > 0.9F && p.position.y() < 0.0F && p.position.x() > -0.027F;
     if (!inner_face) continue;
     if (p.position.x() < 0.02F && p.position.x() > -0.02F) {
-      hidden += studio.visibility.facing.at(0, i) && !studio.visibility.seen.at(0, i) ? 1 : 0;
-      open += studio.visibility.seen.at(1, i) ? 1 : 0;
+      hidden += studio.visibility().facing.at(0, i) && !studio.visibility().seen.at(0, i) ? 1 : 0;
+      open += studio.visibility().seen.at(1, i) ? 1 : 0;
     }
   }
   EXPECT_GT(hidden, 300U);
@@ -82,8 +89,8 @@ TEST(SelfVisibility, OneLegOfABracketHidesTheOther) {
 TEST(SelfVisibility, GrazingSurfacesAreNotSeen) {
   const float tilt = 1.4F;  // More than the cut-off of 1.31 radians, less than a right angle.
   const Studio studio(shapes::box(0.05F, 0.05F, 0.05F), 0.088F, {Vector3(std::sin(tilt), 0, std::cos(tilt))});
-  for (std::size_t i = 0; i < studio.samples.size(); ++i) {
-    EXPECT_FALSE(studio.samples[i].normal.z() > 0.5F && studio.visibility.seen.at(0, i));
+  for (std::size_t i = 0; i < studio.samples().size(); ++i) {
+    EXPECT_FALSE(studio.samples()[i].normal.z() > 0.5F && studio.visibility().seen.at(0, i));
   }
 }
 
@@ -92,28 +99,28 @@ TEST(ViewRefinement, ACylinderSeenEndOnCannotFixThePose) {
   const Studio studio(shapes::cylinder(0.01F, 0.05F), 0.054F,
                       {Vector3::UnitZ(), Vector3::UnitX(), Vector3(1, 0, 1).normalized()});
   const auto conditioning = [&](std::size_t direction) {
-    return pose_conditioning(studio.samples, studio.visibility.seen.row(direction), symmetry, 0.027F);
+    return pose_conditioning(studio.samples(), studio.visibility().seen.row(direction), symmetry, 0.027F);
   };
   EXPECT_LT(conditioning(0), 1e-4F);
   EXPECT_LT(conditioning(1), 1e-4F);  // Side on, it may slide along its axis.
   EXPECT_GT(conditioning(2), 0.01F);
   // Without the symmetry the turn about the axis is free from everywhere.
-  EXPECT_LT(pose_conditioning(studio.samples, studio.visibility.seen.row(2), {}, 0.027F), 1e-3F);
+  EXPECT_LT(pose_conditioning(studio.samples(), studio.visibility().seen.row(2), {}, 0.027F), 1e-3F);
 }
 
 TEST(ViewRefinement, DegenerateViewsOfACylinderAreDroppedAndOneViewServesAllTurns) {
   const RigidTransform flip = turn_about({Vector3::UnitX(), Vector3::Zero()}, std::numbers::pi_v<float>);
   const SymmetryGroup symmetry = close_group(std::span(&flip, 1), true, {Vector3::UnitZ(), Vector3::Zero()}, 0.05F);
-  const Studio studio(shapes::cylinder(0.012F, 0.03F), 0.0384F, view_sphere(162));
+  const Studio studio(shapes::cylinder(0.012F, 0.03F), 0.0384F, view_sphere(162), symmetry);
   BankReport report;
   BankBuildParameters parameters;
   parameters.minimum_completeness = 0.1F;
-  const auto kept = refine_views(studio.candidates(), symmetry, studio.diameter, parameters, report);
+  const auto kept = studio.refined(symmetry, parameters, report);
   EXPECT_EQ(report.views_rendered, 162);
   EXPECT_GT(report.views_degenerate, 8);
   EXPECT_EQ(report.views_kept, static_cast<int>(kept.size()));
   EXPECT_EQ(kept.size(), 1U);
-  EXPECT_LT(std::abs(studio.directions[kept[0].candidate].z()), 0.95F);
+  EXPECT_LT(std::abs(studio.candidates.directions[kept[0].candidate].z()), 0.95F);
   EXPECT_EQ(report.views_incomplete + report.views_degenerate + report.views_merged + report.views_kept, 162);
 }
 
@@ -121,25 +128,79 @@ TEST(ViewRefinement, EverySideOfABracketIsCoveredByAKeptView) {
   const Studio studio(shapes::moved(shapes::bracket(), {Matrix3::Identity(), Vector3(-0.04F, -0.025F, 0)}), 0.1F,
                       view_sphere(162));
   BankReport report;
-  const auto kept = refine_views(studio.candidates(), {}, studio.diameter, {}, report);
+  const auto kept = studio.refined({}, {}, report);
   EXPECT_GE(kept.size(), 4U);
-  for (std::size_t i = 0; i < studio.samples.size(); i += 7) {
+  for (std::size_t i = 0; i < studio.samples().size(); i += 7) {
     const bool covered = std::any_of(kept.begin(), kept.end(), [&](const RefinedView& view) {
-      return studio.visibility.seen.at(view.candidate, i);
+      return std::any_of(view.fused.begin(), view.fused.end(),
+                         [&](std::size_t fused) { return studio.visibility().seen.at(fused, i); });
     });
-    EXPECT_TRUE(covered) << studio.samples[i].position.transpose() << " / " << studio.samples[i].normal.transpose();
+    EXPECT_TRUE(covered) << studio.samples()[i].position.transpose() << " / " << studio.samples()[i].normal.transpose();
   }
+}
+
+TEST(ViewRefinement, EveryCandidateHasAFate) {
+  const Studio studio(shapes::bracket(), 0.1F, view_sphere(60));
+  BankReport report;
+  const auto kept = studio.refined({}, {}, report);
+  ASSERT_EQ(report.candidates.size(), 60U);
+  std::array<int, 6> fates{};
+  for (const CandidateReport& candidate : report.candidates) ++fates[static_cast<std::size_t>(candidate.fate)];
+  EXPECT_EQ(fates[static_cast<std::size_t>(CandidateFate::kept)], static_cast<int>(kept.size()));
+  const int fused = fates[static_cast<std::size_t>(CandidateFate::fused)];
+  EXPECT_EQ(fused, report.views_fused);
+  EXPECT_GT(fused, 0);
+  EXPECT_EQ(fates[static_cast<std::size_t>(CandidateFate::merged)] + fused, report.views_merged);
+  for (const CandidateReport& candidate : report.candidates) {
+    if (candidate.fate == CandidateFate::fused) {
+      EXPECT_LT(candidate.view, kept.size());
+    }
+  }
+  EXPECT_EQ(fates[static_cast<std::size_t>(CandidateFate::incomplete)], report.views_incomplete);
+  EXPECT_EQ(fates[static_cast<std::size_t>(CandidateFate::degenerate)], report.views_degenerate);
+}
+
+TEST(ViewRefinement, SwitchedOffKeepsSpreadCandidatesAsTheyAre) {
+  const Studio studio(shapes::bracket(), 0.1F, view_sphere(162));
+  BankReport report;
+  BankBuildParameters parameters;
+  parameters.refinement = false;
+  parameters.maximum_views = 6;
+  const auto kept = studio.refined({}, parameters, report);
+  ASSERT_EQ(kept.size(), 6U);
+  for (const RefinedView& a : kept) {
+    for (const RefinedView& b : kept) {
+      if (&a == &b) continue;
+      // Six even directions stand a right angle apart.
+      EXPECT_LT(studio.candidates.directions[a.candidate].dot(studio.candidates.directions[b.candidate]), 0.6F);
+    }
+  }
+}
+
+TEST(Generalisation, FusionUnitesAndSmoothingKeepsToOneView) {
+  // From either side a sensor sees a little more of the round.
+  const Studio studio(shapes::cylinder(0.012F, 0.03F), 0.0384F, view_sphere(162));
+  BankReport report;
+  const auto kept = studio.refined({}, {}, report);
+  const auto points = [&](const RefinedView& view, Generalisation method) {
+    return generalise_view(view, studio.candidates, {}, {method, 0.002F, Vector3::Zero()}).references.size();
+  };
+  ASSERT_GT(kept[0].fused.size(), 1U);
+  const RefinedView alone{kept[0].candidate, {kept[0].candidate}, kept[0].completeness};
+  const std::size_t single = points(alone, Generalisation::none);
+  EXPECT_GT(points(kept[0], Generalisation::fuse), single + 10);
+  EXPECT_NEAR(static_cast<double>(points(alone, Generalisation::smooth)), static_cast<double>(single), 10.0);
 }
 
 TEST(Generalisation, ReferencesOfASymmetricPartLieInOneSlice) {
   const SymmetryGroup symmetry = close_group({}, true, {Vector3::UnitZ(), Vector3::Zero()}, 0.05F);
-  const Studio studio(shapes::cylinder(0.012F, 0.03F), 0.0384F, view_sphere(162));
+  const Studio studio(shapes::cylinder(0.012F, 0.03F), 0.0384F, view_sphere(162), symmetry);
   BankReport report;
   BankBuildParameters parameters;
   parameters.minimum_completeness = 0.1F;
-  const auto kept = refine_views(studio.candidates(), symmetry, studio.diameter, parameters, report);
-  const auto orbits = direction_orbits(studio.directions, symmetry);
-  const GeneralisedView view = generalise_view(kept[0], studio.candidates(), orbits, symmetry, Vector3::Zero(), 0.002F);
+  const auto kept = studio.refined(symmetry, parameters, report);
+  const GeneralisedView view =
+      generalise_view(kept[0], studio.candidates, symmetry, {Generalisation::fuse, 0.002F, Vector3::Zero()});
   EXPECT_LT(view.references.size() * 5, view.partners.size());
   const Vector3 first = view.references[0].point.position;
   for (const ViewPoint& r : view.references) {

@@ -1,0 +1,159 @@
+#include "core/train/cut_out.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/geometry/depth_render.hpp"
+#include "core/train/surface_index.hpp"
+
+namespace graspd {
+
+namespace {
+
+constexpr int least_neighbours = 6;
+constexpr int alignment_steps = 8;
+
+/// The crop of a frame that a posed part may cover.
+struct Crop {
+  Camera camera;
+  std::vector<Vector3> measured;  ///< Points that coincide with the model; z = 0: none.
+  std::vector<float> model;       ///< The model's depth; 0: none.
+};
+
+Crop coinciding_points(const DepthFrame& frame, const RigidTransform& camera_from_part, const MeshView& mesh,
+                       float coincidence) {
+  Crop crop;
+  const ImageRectangle bounds = projected_bounds(mesh, camera_from_part, frame.camera);
+  if (bounds.empty()) return crop;
+  crop.camera = cropped(frame.camera, bounds);
+  crop.model.resize(crop.camera.pixel_count());
+  render_depth(mesh, camera_from_part, crop.camera, crop.model);
+  crop.measured.assign(crop.camera.pixel_count(), Vector3::Zero());
+  for (int v = 0; v < crop.camera.height; ++v) {
+    for (int u = 0; u < crop.camera.width; ++u) {
+      const std::size_t place = crop.camera.index(u, v);
+      const float z = frame.at(u + bounds.left, v + bounds.top);
+      if (z > 0.0F && crop.model[place] > 0.0F && std::abs(z - crop.model[place]) < coincidence) {
+        crop.measured[place] = crop.camera.point(static_cast<float>(u), static_cast<float>(v), z);
+      }
+    }
+  }
+  return crop;
+}
+
+/// The plane through the points around a pixel; false when they do not make one.
+bool fit_plane(const Crop& crop, int u, int v, int radius, const std::vector<Vector3>& points, OrientedPoint& plane) {
+  const Vector3& middle = points[crop.camera.index(u, v)];
+  Vector3 mean = Vector3::Zero();
+  Matrix3 moments = Matrix3::Zero();
+  int count = 0;
+  const float reach = 2.0F * static_cast<float>(radius) * middle.z() / crop.camera.fx;
+  for (int j = std::max(0, v - radius); j <= std::min(crop.camera.height - 1, v + radius); ++j) {
+    for (int i = std::max(0, u - radius); i <= std::min(crop.camera.width - 1, u + radius); ++i) {
+      const Vector3& p = points[crop.camera.index(i, j)];
+      if (p.z() == 0.0F || std::abs(p.z() - middle.z()) > reach) continue;
+      const Vector3 arm = p - middle;
+      mean += arm;
+      moments += arm * arm.transpose();
+      ++count;
+    }
+  }
+  if (count < least_neighbours) return false;
+  mean /= static_cast<float>(count);
+  const Matrix3 spread = moments / static_cast<float>(count) - mean * mean.transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(spread);
+  const Vector3 normal = solver.eigenvectors().col(0);
+  if (solver.eigenvalues()(1) < 4.0F * solver.eigenvalues()(0)) return false;
+  plane.position = middle + normal * normal.dot(mean);
+  plane.normal = normal.dot(middle) > 0.0F ? Vector3(-normal) : normal;
+  return true;
+}
+
+}  // namespace
+
+CutOut cut_out(const DepthFrame& frame, const RigidTransform& camera_from_part, const MeshView& mesh,
+               const Vector3& centre, const CutOutParameters& parameters) {
+  const RigidTransform part_from_camera = inverse(camera_from_part);
+  CutOut view;
+  view.direction = (part_from_camera.translation - centre).normalized();
+  const Crop crop = coinciding_points(frame, camera_from_part, mesh, parameters.coincidence);
+  if (crop.measured.empty()) return view;
+  std::vector<Vector3> model(crop.model.size(), Vector3::Zero());
+  for (int v = 0; v < crop.camera.height; ++v) {
+    for (int u = 0; u < crop.camera.width; ++u) {
+      const float z = crop.model[crop.camera.index(u, v)];
+      if (z > 0.0F) {
+        model[crop.camera.index(u, v)] = crop.camera.point(static_cast<float>(u), static_cast<float>(v), z);
+      }
+    }
+  }
+  const float distance = (camera_from_part * centre).z();
+  const float pixels = parameters.spacing * crop.camera.fx / std::max(distance, 1e-3F);
+  const int step = std::max(1, static_cast<int>(pixels));
+  const int radius = std::max(1, static_cast<int>(std::lround(1.5F * pixels)));
+  for (int v = 0; v < crop.camera.height; v += step) {
+    for (int u = 0; u < crop.camera.width; u += step) {
+      if (crop.measured[crop.camera.index(u, v)].z() == 0.0F) continue;
+      OrientedPoint measured;
+      OrientedPoint expected;
+      if (!fit_plane(crop, u, v, radius, crop.measured, measured) || !fit_plane(crop, u, v, 1, model, expected))
+        continue;
+      if (measured.normal.dot(expected.normal) < std::cos(parameters.same_normal)) continue;
+      view.points.push_back(part_from_camera * measured);
+    }
+  }
+  return view;
+}
+
+float align_to_surface(std::span<const OrientedPoint> surface, float reach, CutOut& view) {
+  using Vector6 = Eigen::Matrix<float, 6, 1>;
+  using Matrix6 = Eigen::Matrix<float, 6, 6>;
+  const SurfaceIndex index(surface, reach);
+  Vector3 middle = Vector3::Zero();
+  for (const OrientedPoint& point : view.points) middle += point.position / static_cast<float>(view.points.size());
+  float length = 0.0F;
+  for (const OrientedPoint& point : view.points) length = std::max(length, (point.position - middle).norm());
+  RigidTransform aligned;
+  RigidTransform best;
+  float best_error = std::numeric_limits<float>::infinity();
+  for (int i = 0; i <= alignment_steps; ++i) {
+    Matrix6 hessian = Matrix6::Zero();
+    Vector6 gradient = Vector6::Zero();
+    float squares = 0.0F;
+    std::size_t count = 0;
+    for (const OrientedPoint& point : view.points) {
+      const OrientedPoint moved = aligned * point;
+      const OrientedPoint& target = surface[index.nearest(moved)];
+      const float distance = target.normal.dot(moved.position - target.position);
+      if ((moved.position - target.position).norm() > reach) continue;
+      Vector6 row;
+      row << ((moved.position - middle) / length).cross(target.normal), target.normal;
+      hessian += row * row.transpose();
+      gradient += row * distance;
+      squares += distance * distance;
+      ++count;
+    }
+    if (count < 6) break;
+    const float error = std::sqrt(squares / static_cast<float>(count));
+    if (error >= best_error) break;
+    best_error = error;
+    best = aligned;
+    // What the view does not fix stays where the pose put it.
+    hessian += Matrix6::Identity() * (1e-3F * hessian.trace() / 6.0F);
+    const Vector6 step = hessian.ldlt().solve(-gradient);
+    const Vector3 turn = step.head<3>() / length;
+    RigidTransform move;
+    if (turn.norm() > 0.0F) move.rotation = Eigen::AngleAxisf(turn.norm(), turn.normalized()).toRotationMatrix();
+    move.translation = middle + step.tail<3>() - move.rotation * middle;
+    aligned = move * aligned;
+  }
+  if (!std::isfinite(best_error)) return best_error;
+  for (OrientedPoint& point : view.points) point = best * point;
+  view.direction = best.rotation * view.direction;
+  return best_error;
+}
+
+}  // namespace graspd
