@@ -126,11 +126,17 @@ void add_validate_command(CLI::App& command_line, Status& outcome) {
   command->add_option("--reliability", options->reliability,
                       "Write a plot of the share that is right over the score into this PNG");
   command
+      ->add_option("--images", options->validation.images,
+                   "Only the images of these numbers out of each scene, as 0,2,5")
+      ->delimiter(',');
+  command
       ->add_option("--minimum-score", options->validation.minimum_score,
                    "Report from this score on (else the banks' own)")
       ->check(CLI::Range(0.0, 1.0));
   command->add_flag("--no-tests", options->validation.without_tests,
                     "Let the score alone decide, without the tests of verification");
+  command->add_flag("--no-edges", options->validation.without_edges,
+                    "Refine and judge by surfaces alone, without edges and outlines");
   command->add_option("--picture-dir", options->validation.picture_folder,
                       "Write each frame with the instances found into this folder");
   command->footer(

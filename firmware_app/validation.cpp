@@ -36,6 +36,16 @@ Result<DataSet> open_data_set(const ValidationOptions& options) {
   Result<std::vector<EvaluationImage>> images = read_evaluation_images(options.root, options.split);
   if (!images.ok()) return images.status();
   data.images = std::move(images).value();
+  if (!options.images.empty()) {
+    std::erase_if(data.images, [&](const EvaluationImage& image) {
+      return std::find(options.images.begin(), options.images.end(), static_cast<int>(image.image)) ==
+             options.images.end();
+    });
+    if (data.images.empty()) {
+      return Status::format(StatusCode::bad_file, "--images: the targets of %s name no image of these numbers",
+                            options.split.c_str());
+    }
+  }
   for (const EvaluationImage& image : data.images) {
     for (const EvaluationTarget& target : image.targets) data.bank_index[target.part] = 0;
   }
@@ -91,6 +101,8 @@ Status validate_image(const ValidationOptions& options, const DataSet& data, Eva
   DetectParameters parameters;
   parameters.threads = options.threads;
   parameters.verify.tests = !options.without_tests;
+  parameters.verify.edges = !options.without_edges;
+  parameters.refine.edges = !options.without_edges;
   Detections detections;
   session.fit({frame.camera.width, frame.camera.height}, data.banks.banks, options.threads);
   if (trace != nullptr) request.trace = &trace->trace();

@@ -20,11 +20,13 @@ struct ValidationOptions {
   std::string split;           ///< Its folder of scenes and the first word of its targets file.
   std::string bank_folder;     ///< Holds obj_000001.bank and so on.
   std::string picture_folder;  ///< Where annotated pictures go; empty: nowhere.
+  std::vector<int> images;     ///< Numbers of the images to look at in each scene; empty: all.
   int threads = 1;
   bool without_empty_bin = false;  ///< Do not use the scenes' empty frames.
   bool explain = false;            ///< Find out where right poses were lost.
   float minimum_score = -1.0F;     ///< Overrides the banks' thresholds when not negative.
   bool without_tests = false;      ///< Let the score alone decide (ablation).
+  bool without_edges = false;      ///< Neither refine nor judge by the outline (ablation).
 };
 
 /// What was found in all images of the targets file.

@@ -53,6 +53,7 @@ struct RefineParameters {
   float last_gate = 0.4F;    ///< and in the last of all.
   int fine_iterations = 6;
   int fine_rounds = 2;     ///< The contour is rendered anew each round.
+  bool edges = true;       ///< False: surfaces alone draw the pose (ablation).
   float edge_gate = 1.5F;  ///< Voxels: contours further from the scene's edges are ignored in the fine iterations.
   int fine_points = 400;
   float same_rotation = 0.1F;     ///< Radians: coarse poses this close and
@@ -64,6 +65,7 @@ struct RefineParameters {
 /// Verification (paper 2.4.2); the thresholds come from the bank.
 struct VerifyParameters {
   bool tests = true;               ///< False: only the score decides (ablation).
+  bool edges = true;               ///< False: the outline says nothing (ablation).
   float tolerance = 0.4F;          ///< Voxels: a model surface this close to the measured one is confirmed
   float blurred_tolerance = 1.0F;  ///< and this close when the sensor smears depth steps over half a voxel.
   float minimum_measured = 0.2F;   ///< Share of the model that must have been measured at all to be judged.

@@ -124,9 +124,10 @@ void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& b
   const float voxel = bank.part->sampling;
   const IcpSchedule schedule{parameters.coarse_iterations, parameters.coarse_points, parameters.first_gate * voxel,
                              parameters.coarse_gate * voxel, 0.0F};
+  const std::span<const EdgePoint> contour = parameters.edges ? bank.edges : std::span<const EdgePoint>{};
   parallel_for(clusters.size(), threads, 4, [&](std::size_t k) {
     PoseCluster& cluster = clusters[k];
-    cluster.camera_from_part = refine_pose(map, edges, bank, bank.edges, cluster.camera_from_part, schedule);
+    cluster.camera_from_part = refine_pose(map, edges, bank, contour, cluster.camera_from_part, schedule);
     cluster.score =
         scene_consistency(map, bank, cluster.camera_from_part, 2 * parameters.coarse_points, 0.6F * voxel).score();
   });
@@ -164,7 +165,7 @@ RigidTransform refine_finely(const SceneMap& map, const DepthEdges& edges, const
   for (int round = 0; round < parameters.fine_rounds; ++round) {
     const RenderedModel model = render_model(map, bank, pose, image, {});
     const std::size_t count = find_contour(map, model, pose, contour);
-    pose = refine_pose(map, edges, bank, std::span(contour).first(count), pose, schedule);
+    pose = refine_pose(map, edges, bank, std::span(contour).first(parameters.edges ? count : 0), pose, schedule);
   }
   return pose;
 }

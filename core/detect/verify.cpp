@@ -247,7 +247,7 @@ Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Ban
   const float voxel_cells = bank.part->sampling / map.footprint(depth_sum / rendered);
   evidence.confirmed = confirmed / (voxel_cells * voxel_cells);
   evidence.relief = normal_count > 0.0F ? relief_of(normals / normal_count) : 0.0F;
-  const int decided = outline.consistent + outline.inconsistent;
+  const int decided = parameters.edges ? outline.consistent + outline.inconsistent : 0;
   evidence.edge = decided > 0 ? static_cast<float>(outline.consistent) / static_cast<float>(decided) : 1.0F;
   evidence.contour = decided > 0 ? static_cast<float>(outline.matched) / static_cast<float>(decided) : 0.5F;
   return evidence;

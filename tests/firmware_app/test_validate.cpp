@@ -104,6 +104,13 @@ TEST_F(Validate, SaysWhichTargetsTheThresholdRejected) {
   EXPECT_THAT(outcome.output, ContainsRegex("rejected by score 0\\.[0-9]+, must be at least 1\\.000"));
 }
 
+TEST_F(Validate, LooksAtTheImagesAskedFor) {
+  EXPECT_THAT(validate({"--images", "0,2"}).output, HasSubstr("2 instances reported in 1 images"));
+  const GraspdOutcome none = validate({"--images", "2"});
+  EXPECT_EQ(none.exit_code, 4);
+  EXPECT_THAT(none.errors, HasSubstr("--images"));
+}
+
 TEST_F(Validate, NamesTheBankThatIsMissing) {
   std::filesystem::remove(folder_.path("banks/obj_000007.bank"));
   const GraspdOutcome outcome = validate({});

@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "tests/core/detect/bracket_scene.hpp"
+
+namespace graspd {
+namespace {
+
+/// What is found of six brackets with these parameters.
+struct AblatedDetection {
+  BracketBank bracket;
+  BracketScene scene;
+  DetectMemory memory{1};
+  Detections detections;
+
+  void run(const DetectParameters& parameters) {
+    DetectRequest request;
+    request.banks = {&bracket.bank(), 1};
+    const Status status = detect(scene.frame(), request, parameters, memory.workspace, detections);
+    ASSERT_TRUE(status.ok()) << status.message();
+  }
+
+  /// How many of the instances have an outline that says something.
+  [[nodiscard]] std::size_t outlined() const {
+    const auto says = [](const Instance& i) { return i.evidence.edge < 1.0F || i.evidence.contour != 0.5F; };
+    return static_cast<std::size_t>(std::count_if(detections.instances.begin(), detections.instances.end(), says));
+  }
+};
+
+TEST(AblationSwitches, WithoutEdgesTheOutlineSaysNothing) {
+  AblatedDetection ablated;
+  ASSERT_NO_FATAL_FAILURE(ablated.run({}));
+  EXPECT_EQ(ablated.outlined(), ablated.detections.instances.size());
+  const RigidTransform with = ablated.detections.instances.front().camera_from_part;
+  DetectParameters parameters;
+  parameters.refine.edges = false;
+  parameters.verify.edges = false;
+  ASSERT_NO_FATAL_FAILURE(ablated.run(parameters));
+  EXPECT_GT(ablated.detections.instances.size(), 3U);
+  EXPECT_EQ(ablated.outlined(), 0U);
+  const auto same = [&](const Instance& i) {
+    return i.camera_from_part.translation == with.translation && i.camera_from_part.rotation == with.rotation;
+  };
+  EXPECT_TRUE(std::none_of(ablated.detections.instances.begin(), ablated.detections.instances.end(), same));
+}
+
+TEST(AblationSwitches, WithoutTestsOnlyTheScoreRejects) {
+  AblatedDetection ablated;
+  DetectParameters parameters;
+  ASSERT_NO_FATAL_FAILURE(ablated.run(parameters));
+  const auto count = [&](Rejection test) { return ablated.detections.rejections[static_cast<std::size_t>(test)]; };
+  const std::array tests{Rejection::overlap, Rejection::boundary, Rejection::edge, Rejection::below_plane};
+  std::uint32_t rejected = 0;
+  for (const Rejection test : tests) rejected += count(test);
+  EXPECT_GT(rejected, 0U);
+  parameters.verify.tests = false;
+  ASSERT_NO_FATAL_FAILURE(ablated.run(parameters));
+  for (const Rejection test : tests) EXPECT_EQ(count(test), 0U);
+}
+
+}  // namespace
+}  // namespace graspd
