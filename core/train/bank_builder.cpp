@@ -17,6 +17,7 @@
 #include "core/train/symmetry_group.hpp"
 #include "core/train/view_refinement.hpp"
 #include "core/train/view_sphere.hpp"
+#include "core/train/view_weights.hpp"
 
 namespace graspd {
 
@@ -263,9 +264,10 @@ Result<std::vector<std::byte>> learn_bank(const PartDescription& part, std::vect
   progress(0.7F);
 
   report.resting = resting_poses(occluder, centre_of_mass(mesh.mesh, mesh.closed()), storage.symmetry);
+  const std::vector<float> weights = view_weights(candidates.directions, report.resting, storage.symmetry);
   const std::vector<RefinedView> refined =
       parameters.full_model ? whole_part(candidates, report)
-                            : refine_views(candidates, storage.symmetry, mesh.diameter, parameters, report);
+                            : refine_views(candidates, storage.symmetry, weights, mesh.diameter, parameters, report);
   const GeneralisationSettings generalisation{parameters.generalisation, voxel, storage.part.centre};
   std::vector<GeneralisedView> views;
   for (const RefinedView& view : refined) {

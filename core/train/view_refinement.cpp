@@ -197,7 +197,8 @@ float pose_conditioning(std::span<const OrientedPoint> samples, std::span<const 
   return static_cast<float>(solver.eigenvalues()(0) / solver.eigenvalues()(5));
 }
 
-std::vector<RefinedView> refine_views(const CandidateViews& candidates, const SymmetryGroup& symmetry, float diameter,
+std::vector<RefinedView> refine_views(const CandidateViews& candidates, const SymmetryGroup& symmetry,
+                                      std::span<const float> weights, float diameter,
                                       const BankBuildParameters& parameters, BankReport& report) {
   const Judged judged = judge_candidates(candidates);
   list_candidates(candidates, judged, report);
@@ -205,10 +206,13 @@ std::vector<RefinedView> refine_views(const CandidateViews& candidates, const Sy
   std::vector<RefinedView> kept;
   if (parameters.refinement) {
     std::vector<std::size_t> order = usable_candidates(candidates, judged, symmetry, diameter, parameters, report);
+    const auto worth = [&](std::size_t i) {
+      return static_cast<float>(judged.visible[i]) * (weights.empty() ? 1.0F : weights[i]);
+    };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       const bool a_measured = a >= candidates.rendered;
       const bool b_measured = b >= candidates.rendered;
-      return a_measured != b_measured ? a_measured : judged.visible[a] > judged.visible[b];
+      return a_measured != b_measured ? a_measured : worth(a) > worth(b);
     });
     for (const std::size_t i : order) {
       const Overlap overlap = largest_overlap(i, kept, candidates, judged);

@@ -34,7 +34,7 @@ struct Studio {
 
   [[nodiscard]] std::vector<RefinedView> refined(const SymmetryGroup& symmetry, const BankBuildParameters& parameters,
                                                  BankReport& report) const {
-    return refine_views(candidates, symmetry, diameter, parameters, report);
+    return refine_views(candidates, symmetry, {}, diameter, parameters, report);
   }
 };
 
@@ -136,6 +136,20 @@ TEST(ViewRefinement, EverySideOfABracketIsCoveredByAKeptView) {
                          [&](std::size_t fused) { return studio.visibility().seen.at(fused, i); });
     });
     EXPECT_TRUE(covered) << studio.samples()[i].position.transpose() << " / " << studio.samples()[i].normal.transpose();
+  }
+}
+
+TEST(ViewRefinement, TheHeaviestOfAlikeViewsIsKeptFirst) {
+  const std::vector<Vector3> corners{Vector3(1, 1, 1).normalized(), Vector3(-1, -1, -1).normalized(),
+                                     Vector3(1, -1, 1).normalized()};
+  const Studio studio(shapes::box(0.05F, 0.05F, 0.05F), 0.0866F, corners);
+  for (std::size_t heaviest = 0; heaviest < corners.size(); ++heaviest) {
+    std::vector<float> weights(corners.size(), 0.4F);
+    weights[heaviest] = 1.0F;
+    BankReport report;
+    const auto kept = refine_views(studio.candidates, {}, weights, studio.diameter, {}, report);
+    ASSERT_FALSE(kept.empty());
+    EXPECT_EQ(kept[0].candidate, heaviest);
   }
 }
 
