@@ -12,7 +12,7 @@
 #include "core/detect/detector.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/detect/trace.hpp"
-#include "core/detect/verify.hpp"
+#include "core/detect/score.hpp"
 #include "core/evaluate/explanation.hpp"
 
 namespace graspd {

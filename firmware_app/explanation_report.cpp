@@ -192,8 +192,9 @@ std::string distance_text(float error) {
 void append_reason(std::string& text, const MissedTarget& missed) {
   const Instance& judged = missed.judged;
   append(text, "rejected by %s", rejection_name(judged.rejection));
-  const auto test = std::find_if(missed.tests.begin(), missed.tests.end(),
-                                 [&](const TestOutcome& outcome) { return outcome.test == judged.rejection; });
+  const auto test = std::find_if(missed.tests.begin(), missed.tests.end(), [&](const TestOutcome& outcome) {
+    return outcome.test == judged.rejection && outcome.failed();
+  });
   if (test != missed.tests.end()) {
     append(text, " %.3f, must be %s %.3f", wide(test->figure), test->at_least ? "at least" : "at most",
            wide(test->threshold));

@@ -35,8 +35,9 @@ struct Evidence {
   float measured = 0;   ///< Share of that surface for which the sensor saw anything.
   float boundary = 0;   ///< Share of the model that stands where the scene shows free space.
   float edge = 0;       ///< Share of the decided outline that agrees with the scene.
-  float contour = 0;    ///< Share of the decided outline that lies on a depth edge of the scene.
-  float relief = 0;     ///< Spread of the normals of the confirmed surface: 0 flat, 2/3 a ball.
+  float outline = 0;    ///< Length of the outline, in voxel edges.
+  float lock = 0;       ///< How firmly the confirmed normals hold the pose: 0 for a plane or a cylinder, at most 1.
+  float gap = 0;        ///< Area with free space where the model stands, without its seam, in voxel faces.
   float below = 0;      ///< Share of the model below the plane or inside accepted instances.
   float residual = 0;   ///< Root mean square distance of confirmed points, in voxels of the bank
   float misfit = 0;     ///< and as a share of what is tolerated of this sensor.

@@ -6,6 +6,7 @@
 
 #include "core/detect/parallel_for.hpp"
 #include "core/detect/refine.hpp"
+#include "core/detect/score.hpp"
 #include "core/detect/spread.hpp"
 #include "core/detect/verify.hpp"
 
@@ -76,8 +77,8 @@ Instance judge(const Scene& scene, const Bank& bank, std::uint32_t bank_index, c
       refine_finely(scene.map, scene.edges, bank, cluster.camera_from_part, parameters.refine, image);
   const RenderedModel model = render_model(scene.map, bank, instance.camera_from_part, image.first(image.size() / 2),
                                            image.subspan(image.size() / 2));
-  instance.evidence = gather_evidence(scene.map, scene.edges, bank, model, parameters.verify, {});
-  instance.score = score_of(instance.evidence);
+  instance.evidence = gather_evidence(scene.map, bank, model, parameters.verify, {});
+  instance.score = score_of(instance.evidence, false);
   if (parameters.verify.tests)
     instance.rejection = failed_test(instance.evidence, parameters.verify, bank.part->thresholds);
   return instance;
@@ -164,8 +165,8 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
   if (late(request)) detections.flags |= flag_deadline;
 
   detections.flags |=
-      select_instances(scene.map, scene.edges, request.banks, parameters.verify, request.minimum_score,
-                       workspace.judged.span(), workspace.select, workspace.accepted, workspace.rejected);
+      select_instances(scene.map, request.banks, parameters.verify, request.minimum_score, workspace.judged.span(),
+                       workspace.select, workspace.accepted, workspace.rejected);
   clock.end_of(Stage::verify);
   for (const Instance& instance : workspace.rejected)
     ++detections.rejections[static_cast<std::size_t>(instance.rejection)];

@@ -69,6 +69,7 @@ struct VerifyParameters {
   float tolerance = 0.4F;          ///< Voxels: a model surface this close to the measured one is confirmed
   float blurred_tolerance = 1.0F;  ///< and this close when the sensor smears depth steps over half a voxel.
   float minimum_measured = 0.2F;   ///< Share of the model that must have been measured at all to be judged.
+  float minimum_purity = 0.6F;     ///< Share of what the scene says of the model that must be in its favour.
 };
 
 /// Bounds on what one detection may hold; they fix the memory of a workspace.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/detect/score.hpp"
+
 namespace graspd {
 
 namespace {
@@ -60,10 +62,11 @@ void claim(const SceneMap& map, const RenderedModel& model, float tolerance, std
   }
 }
 
+bool surer(const Instance& a, const Instance& b) { return a.score > b.score; }
+
 /// What does not change while instances are selected.
 struct Selection {
   const SceneMap& map;
-  const DepthEdges& edges;
   std::span<const Bank> banks;
   const VerifyParameters& parameters;
   float minimum_score;
@@ -72,6 +75,13 @@ struct Selection {
     return minimum_score >= 0.0F ? minimum_score : banks[instance.bank].part->thresholds.minimum_score;
   }
 };
+
+/// Whether another instance of the same part was accepted that is sure by itself.
+bool in_company(const Instance& instance, const FixedVector<Instance>& accepted) {
+  return std::any_of(accepted.begin(), accepted.end(), [&](const Instance& other) {
+    return &other != &instance && other.bank == instance.bank && score_of(other.evidence, false) >= sure_score;
+  });
+}
 
 enum class Outcome : std::uint8_t { accepted, refused, no_room };
 
@@ -85,14 +95,14 @@ Outcome consider(const Selection& selection, Instance& instance, SelectWorkspace
   const RenderedModel model = render_model(selection.map, bank, instance.camera_from_part,
                                            workspace.front.subspan(used), workspace.back.subspan(used));
   if (model.rectangle.empty() || accepted.full() || workspace.rooms.full()) return Outcome::no_room;
-  const Evidence own = gather_evidence(selection.map, selection.edges, bank, model, parameters, workspace.claimed);
+  const Evidence own = gather_evidence(selection.map, bank, model, parameters, workspace.claimed);
   instance.rejection = Rejection::none;
   if (own.confirmed < 0.5F * instance.evidence.confirmed) {
     instance.rejection = Rejection::duplicate;
     return Outcome::refused;
   }
   instance.evidence = own;
-  instance.score = score_of(own);
+  instance.score = score_of(own, in_company(instance, accepted));
   if (parameters.tests) instance.rejection = failed_test(own, parameters, bank.part->thresholds);
   if (instance.rejection == Rejection::none && instance.score < selection.threshold(instance))
     instance.rejection = Rejection::score;
@@ -124,11 +134,10 @@ SelectWorkspace carve_select_workspace(Arena& arena, const DetectCapacity& capac
   return workspace;
 }
 
-std::uint32_t select_instances(const SceneMap& map, const DepthEdges& edges, std::span<const Bank> banks,
-                               const VerifyParameters& parameters, float minimum_score, std::span<Instance> judged,
-                               SelectWorkspace& workspace, FixedVector<Instance>& accepted,
-                               FixedVector<Instance>& rejected) {
-  const Selection selection{map, edges, banks, parameters, minimum_score};
+std::uint32_t select_instances(const SceneMap& map, std::span<const Bank> banks, const VerifyParameters& parameters,
+                               float minimum_score, std::span<Instance> judged, SelectWorkspace& workspace,
+                               FixedVector<Instance>& accepted, FixedVector<Instance>& rejected) {
+  const Selection selection{map, banks, parameters, minimum_score};
   std::uint32_t flags = 0;
   workspace.rooms.clear();
   std::fill_n(workspace.claimed.begin(), map.cells.size(), std::uint16_t{0});
@@ -136,12 +145,13 @@ std::uint32_t select_instances(const SceneMap& map, const DepthEdges& edges, std
   std::iota(order.begin(), order.end(), 0U);
   for (int round = 0; round < most_rounds && !order.empty(); ++round) {
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return judged[a].score != judged[b].score ? judged[a].score > judged[b].score : a < b;
+      return judged[a].score != judged[b].score ? surer(judged[a], judged[b]) : a < b;
     });
     const std::size_t accepted_before = accepted.size();
     std::size_t left = 0;
     for (const std::uint32_t j : order) {
       Instance& instance = judged[j];
+      instance.score = score_of(instance.evidence, in_company(instance, accepted));
       // The first round takes what holds by itself; later ones ask again, since neighbours that were taken
       // account for surfaces that spoke against a hypothesis.
       if (round == 0 && instance.rejection == Rejection::none && instance.score < selection.threshold(instance))
@@ -159,6 +169,8 @@ std::uint32_t select_instances(const SceneMap& map, const DepthEdges& edges, std
     if (round > 0 && accepted.size() == accepted_before) break;
   }
   for (const std::uint32_t j : order) rejected.push_back(judged[j]);
+  for (Instance& instance : accepted) instance.score = score_of(instance.evidence, in_company(instance, accepted));
+  std::sort(accepted.begin(), accepted.end(), surer);
   return flags;
 }
 

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "core/bank/bank.hpp"
-#include "core/detect/depth_edges.hpp"
 #include "core/detect/detections.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/detect/verify.hpp"
@@ -32,10 +31,11 @@ struct SelectWorkspace {
 /// Accepts judged hypotheses, best first, as long as each still has surface of its own that confirms
 /// it and does not stand in the room of one accepted before (spatial pose testing, paper 2.4.2). Evidence and
 /// score are taken anew without the surface that accepted ones claim, and what failed by a neighbour's surface
-/// is asked again once that neighbour was accepted. `judged` hold evidence and score, and a reason when they
+/// is asked again once that neighbour was accepted. Once an instance of a part is sure, others of that part are
+/// likelier. Leaves `accepted` in the order of their scores. `judged` hold evidence and score, and a reason when they
 /// failed a test; they are changed. `minimum_score` overrides the banks' when not negative. Returns flags of
 /// DetectionFlag.
-[[nodiscard]] std::uint32_t select_instances(const SceneMap& map, const DepthEdges& edges, std::span<const Bank> banks,
+[[nodiscard]] std::uint32_t select_instances(const SceneMap& map, std::span<const Bank> banks,
                                              const VerifyParameters& parameters, float minimum_score,
                                              std::span<Instance> judged, SelectWorkspace& workspace,
                                              FixedVector<Instance>& accepted, FixedVector<Instance>& rejected);

@@ -64,9 +64,10 @@ bool rendered_at(const RenderedModel& model, int u, int v) {
   return model.camera.contains(u, v) && model.front[model.camera.index(u, v)] > 0.0F;
 }
 
-bool on_rim(const RenderedModel& model, int u, int v) {
-  return std::any_of(directions.begin(), directions.end(),
-                     [&](const auto& d) { return !rendered_at(model, u + d[0], v + d[1]); });
+/// How many of the four neighbours of a cell the model does not cover.
+int open_sides(const RenderedModel& model, int u, int v) {
+  return static_cast<int>(std::count_if(directions.begin(), directions.end(),
+                                        [&](const auto& d) { return !rendered_at(model, u + d[0], v + d[1]); }));
 }
 
 bool is_claimed(const SceneMap& map, std::span<const std::uint16_t> claimed, int u, int v) {
@@ -75,16 +76,15 @@ bool is_claimed(const SceneMap& map, std::span<const std::uint16_t> claimed, int
 
 /// Votes of the outline on whether the scene ends where the model ends.
 struct OutlineCount {
+  int length = 0;  ///< In edges of cells, decided or not.
   int consistent = 0;
   int inconsistent = 0;
-  int matched = 0;
 };
 
 /// Looks beyond the rim at (u, v) in direction (du, dv): a surface that goes on there, as the extension
 /// of the one inside, contradicts the rim. Sensors round edges off, so the majority of a few cells decides.
-void judge_rim(const SceneMap& map, const DepthEdges& edges, const RenderedModel& model,
-               std::span<const std::uint16_t> claimed, int u, int v, int du, int dv, float tolerance,
-               OutlineCount& count) {
+void judge_rim(const SceneMap& map, const RenderedModel& model, std::span<const std::uint16_t> claimed, int u, int v,
+               int du, int dv, float tolerance, OutlineCount& count) {
   constexpr int first = 2;
   constexpr int last = 6;
   const MapCell& inside = map.at(model.rectangle.left + u, model.rectangle.top + v);
@@ -108,40 +108,37 @@ void judge_rim(const SceneMap& map, const DepthEdges& edges, const RenderedModel
     const bool on_plane = std::abs(inside.normal.dot(beyond.point - inside.point)) < tolerance;
     going_on += on_plane && (!beyond.has_normal() || inside.normal.dot(beyond.normal) > 0.85F) ? 1 : 0;
   }
-  if (seen > 0) {
-    ++(2 * going_on > seen ? count.inconsistent : count.consistent);
-    const std::uint32_t nearest = edges.nearest[map.camera.index(model.rectangle.left + u, model.rectangle.top + v)];
-    if (nearest != no_edge) {
-      const int x = static_cast<int>(nearest) % map.camera.width - model.rectangle.left - u;
-      const int y = static_cast<int>(nearest) / map.camera.width - model.rectangle.top - v;
-      if (x * x + y * y <= 2) ++count.matched;
-    }
-  }
+  if (seen > 0) ++(2 * going_on > seen ? count.inconsistent : count.consistent);
 }
 
-/// 0 for normals that are all alike, up to 2/3 for normals that point everywhere.
-float relief_of(const Matrix3& normal_scatter) {
+/// From how far the normals spread in the direction in which they spread least: without any in that direction the
+/// surface could slide along it (Gelfand and Guibas 2004, slippable motions).
+float lock_of(const Matrix3& normal_scatter) {
   Eigen::SelfAdjointEigenSolver<Matrix3> solver;
   solver.computeDirect(normal_scatter, Eigen::EigenvaluesOnly);
-  return std::clamp(1.0F - solver.eigenvalues().maxCoeff(), 0.0F, 1.0F);
+  return std::clamp(3.0F * solver.eigenvalues().minCoeff(), 0.0F, 1.0F);
 }
 
-/// How much the outline counts: all on a flat surface, which fits anywhere in its plane, and little on a
-/// shape that only fits itself.
-float outline_weight(float relief) {
-  constexpr float flat = 0.05F;
-  constexpr float shaped = 0.25F;
-  return std::clamp((shaped - relief) / (shaped - flat), 0.3F, 1.0F);
+/// Whether the scene shows free space at (u, v) and a third of a voxel round it. Along a seam, where the pose is a
+/// little off or the sensor mixes both sides of an edge, that is so for a right pose too, but nowhere broadly.
+bool in_broad_gap(const SceneMap& map, const RenderedModel& model, int u, int v, float sampling, float tolerance) {
+  constexpr float share_of_voxel = 0.35F;
+  const float front = model.front[model.camera.index(u, v)];
+  const int reach = std::max(1, static_cast<int>(std::lround(share_of_voxel * sampling / map.footprint(front))));
+  return std::all_of(directions.begin(), directions.end(), [&](const auto& d) {
+    const int x = u + reach * d[0];
+    const int y = v + reach * d[1];
+    if (!rendered_at(model, x, y)) return false;
+    const MapCell& cell = map.at(model.rectangle.left + x, model.rectangle.top + y);
+    return cell.measured() && cell.point.z() - model.front[model.camera.index(x, y)] > tolerance;
+  });
 }
 
 /// The share of the part's surface whose projection falls inside the image.
 float share_inside(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part) {
   int inside = 0;
   for (const SurfacePoint& surface : bank.surface) {
-    const Vector3 point = camera_from_part * surface.position;
-    if (point.z() < near_plane) continue;
-    const Eigen::Vector2f pixel = map.camera.project(point);
-    inside += map.camera.contains(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
+    if (map.look_up(camera_from_part * surface.position) != nullptr) ++inside;
   }
   return static_cast<float>(std::max(inside, 1)) / static_cast<float>(bank.surface.size());
 }
@@ -182,7 +179,7 @@ RenderedModel render_model(const SceneMap& map, const Bank& bank, const RigidTra
   return model;
 }
 
-Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RenderedModel& model,
+Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedModel& model,
                          const VerifyParameters& parameters, std::span<const std::uint16_t> claimed) {
   Evidence evidence;
   const float tolerance = surface_tolerance(map, bank, parameters);
@@ -190,6 +187,7 @@ Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Ban
   float rendered = 0;
   float below = 0;
   float squares = 0;
+  float gap = 0;
   OutlineCount outline;
   Matrix3 normals = Matrix3::Zero();
   float normal_count = 0;
@@ -209,7 +207,9 @@ Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Ban
         below += front > limit ? 0.5F : 0.0F;
         below += !model.back.empty() && model.back[index] > limit ? 0.5F : 0.0F;
       }
-      const bool rim = on_rim(model, u, v);
+      const int sides = open_sides(model, u, v);
+      const bool rim = sides > 0;
+      outline.length += sides;
       Verdict verdict = judge(cell, model, u, v, tolerance);
       // What a better instance explains hides this one, unless this one would stand before it.
       if (is_claimed(map, claimed, map_u, map_v) && verdict.verdict != CellVerdict::behind)
@@ -217,6 +217,8 @@ Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Ban
       // Pixels at an edge mix both sides, so a rim that seems to stand before free space says nothing.
       if (rim && verdict.verdict == CellVerdict::behind) verdict.verdict = CellVerdict::unmeasured;
       counts[static_cast<std::size_t>(verdict.verdict)] += 1.0F;
+      if (verdict.verdict == CellVerdict::behind)
+        gap += in_broad_gap(map, model, u, v, bank.part->sampling, tolerance) ? 1.0F : 0.0F;
       if (verdict.verdict != CellVerdict::confirmed) continue;
       squares += verdict.distance * verdict.distance;
       if (cell.has_normal()) {
@@ -225,8 +227,7 @@ Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Ban
       }
       if (!rim) continue;
       for (const auto& [du, dv] : directions) {
-        if (!rendered_at(model, u + du, v + dv))
-          judge_rim(map, edges, model, claimed, u, v, du, dv, tolerance, outline);
+        if (!rendered_at(model, u + du, v + dv)) judge_rim(map, model, claimed, u, v, du, dv, tolerance, outline);
       }
     }
   }
@@ -246,41 +247,12 @@ Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Ban
   evidence.misfit = evidence.residual * bank.part->sampling / tolerance;
   const float voxel_cells = bank.part->sampling / map.footprint(depth_sum / rendered);
   evidence.confirmed = confirmed / (voxel_cells * voxel_cells);
-  evidence.relief = normal_count > 0.0F ? relief_of(normals / normal_count) : 0.0F;
+  evidence.gap = gap / (voxel_cells * voxel_cells);
+  evidence.outline = static_cast<float>(outline.length) / voxel_cells;
+  evidence.lock = normal_count > 0.0F ? lock_of(normals / normal_count) : 0.0F;
   const int decided = parameters.edges ? outline.consistent + outline.inconsistent : 0;
   evidence.edge = decided > 0 ? static_cast<float>(outline.consistent) / static_cast<float>(decided) : 1.0F;
-  evidence.contour = decided > 0 ? static_cast<float>(outline.matched) / static_cast<float>(decided) : 0.5F;
   return evidence;
-}
-
-float score_of(const Evidence& evidence) {
-  // A logistic regression over the best hypotheses at each place in simulated bins of two dozen parts before sharp and
-  // blurred sensors, right or wrong by MSSD, and in bins that hold none of the parts that were looked for.
-  const auto log_odds = [](float share) { return std::log((share + 0.02F) / (1.02F - share)); };
-  // The outline of a right pose agrees in nine of ten places; what is above says nothing.
-  const float outline = outline_weight(evidence.relief) * std::min(0.0F, log_odds(evidence.edge) - log_odds(0.9F));
-  const float sum = -1.83F + 1.2F * log_odds(evidence.visible) + 0.98F * std::log1p(evidence.confirmed) +
-                    0.26F * log_odds(evidence.purity) + 1.81F * outline + 0.16F * log_odds(evidence.contour) +
-                    4.1F * std::min(evidence.relief, 0.3F) - 7.8F * evidence.boundary - 10.2F * evidence.below -
-                    7.83F * evidence.misfit;
-  return evidence.confirmed > 0.0F ? 1.0F / (1.0F + std::exp(-sum)) : 0.0F;
-}
-
-std::array<TestOutcome, evidence_test_count> test_outcomes(const Evidence& evidence, const VerifyParameters& parameters,
-                                                           const VerifyThresholds& thresholds) {
-  return {{{Rejection::weak, evidence.measured, parameters.minimum_measured, true},
-           {Rejection::overlap, evidence.overlap, thresholds.minimum_overlap, true},
-           {Rejection::boundary, evidence.boundary, thresholds.maximum_boundary, false},
-           {Rejection::edge, evidence.edge, thresholds.minimum_edge * outline_weight(evidence.relief), true},
-           {Rejection::below_plane, evidence.below, thresholds.maximum_below, false}}};
-}
-
-Rejection failed_test(const Evidence& evidence, const VerifyParameters& parameters,
-                      const VerifyThresholds& thresholds) {
-  for (const TestOutcome& outcome : test_outcomes(evidence, parameters, thresholds)) {
-    if (outcome.failed()) return outcome.test;
-  }
-  return Rejection::none;
 }
 
 }  // namespace graspd

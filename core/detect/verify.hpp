@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <span>
 
 #include "core/bank/bank.hpp"
 #include "core/detect/background.hpp"
-#include "core/detect/depth_edges.hpp"
 #include "core/detect/detections.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/detect/scene_map.hpp"
@@ -34,31 +32,7 @@ struct RenderedModel {
 /// Holds the rendered model against the measured scene (paper 2.4.2). Cells that the sensor did not
 /// see are neutral; cells where the scene lies behind the model count against it. `claimed` marks
 /// cells that better instances explain, by a number other than 0; may be empty.
-[[nodiscard]] Evidence gather_evidence(const SceneMap& map, const DepthEdges& edges, const Bank& bank,
-                                       const RenderedModel& model, const VerifyParameters& parameters,
-                                       std::span<const std::uint16_t> claimed);
-
-/// The confidence in a pose from its evidence, in [0, 1].
-[[nodiscard]] float score_of(const Evidence& evidence);
-
-/// A figure held against its threshold.
-struct TestOutcome {
-  Rejection test = Rejection::none;
-  float figure = 0;
-  float threshold = 0;
-  bool at_least = true;  ///< The figure must reach the threshold; false: it must not exceed it.
-
-  [[nodiscard]] bool failed() const { return at_least ? figure < threshold : figure > threshold; }
-};
-inline constexpr std::size_t evidence_test_count = 5;
-
-/// All tests of paper 2.4.2 that the evidence of one pose decides, in the order in which they count.
-[[nodiscard]] std::array<TestOutcome, evidence_test_count> test_outcomes(const Evidence& evidence,
-                                                                         const VerifyParameters& parameters,
-                                                                         const VerifyThresholds& thresholds);
-
-/// The first of them that the evidence fails, or none.
-[[nodiscard]] Rejection failed_test(const Evidence& evidence, const VerifyParameters& parameters,
-                                    const VerifyThresholds& thresholds);
+[[nodiscard]] Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedModel& model,
+                                       const VerifyParameters& parameters, std::span<const std::uint16_t> claimed);
 
 }  // namespace graspd

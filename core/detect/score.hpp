@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+
+#include "core/bank/bank.hpp"
+#include "core/detect/detections.hpp"
+#include "core/detect/parameters.hpp"
+
+namespace graspd {
+
+/// How likely a pose is right, in [0, 1], from its evidence; rather too low than too high. `in_company`: another
+/// instance of the same part is surely in the frame, which makes this one much likelier than in a frame that may hold
+/// anything.
+[[nodiscard]] float score_of(const Evidence& evidence, bool in_company);
+
+/// An instance with this score or more, taken alone, is company for others of its part.
+inline constexpr float sure_score = 0.55F;
+
+/// A figure held against its threshold.
+struct TestOutcome {
+  Rejection test = Rejection::none;
+  float figure = 0;
+  float threshold = 0;
+  bool at_least = true;  ///< The figure must reach the threshold; false: it must not exceed it.
+
+  [[nodiscard]] bool failed() const { return at_least ? figure < threshold : figure > threshold; }
+};
+inline constexpr std::size_t evidence_test_count = 6;
+
+/// All tests of paper 2.4.2 that the evidence of one pose decides, in the order in which they count.
+[[nodiscard]] std::array<TestOutcome, evidence_test_count> test_outcomes(const Evidence& evidence,
+                                                                         const VerifyParameters& parameters,
+                                                                         const VerifyThresholds& thresholds);
+
+/// The first of them that the evidence fails, or none.
+[[nodiscard]] Rejection failed_test(const Evidence& evidence, const VerifyParameters& parameters,
+                                    const VerifyThresholds& thresholds);
+
+}  // namespace graspd

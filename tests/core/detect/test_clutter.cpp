@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+
+#include "core/detect/score.hpp"
+#include "tests/core/detect/bracket_scene.hpp"
+
+namespace graspd {
+namespace {
+
+/// A box about its middle, its edges `size` long.
+Mesh box_mesh(const Vector3& size) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.emplace_back(((i & 1) != 0 ? 0.5F : -0.5F) * size.x(), ((i & 2) != 0 ? 0.5F : -0.5F) * size.y(),
+                               ((i & 4) != 0 ? 0.5F : -0.5F) * size.z());
+  }
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+Mesh rod_mesh(float radius, float length) {
+  constexpr std::uint32_t sides = 32;
+  Mesh mesh;
+  for (const float x : {-0.5F * length, 0.5F * length}) {
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(sides);
+      mesh.vertices.emplace_back(x, radius * std::cos(angle), radius * std::sin(angle));
+    }
+  }
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const std::uint32_t j = (i + 1) % sides;
+    mesh.triangles.push_back({i, j, j + sides});
+    mesh.triangles.push_back({i, j + sides, i + sides});
+  }
+  return mesh;
+}
+
+/// Things on a floor that resemble a bracket here and there: boxes that lie flat, one that shows an edge between two
+/// sides like the legs' outer ones, a narrow bar, a rod.
+struct ClutterScene {
+  Camera camera{400, 300, 500.0F, 500.0F, 199.5F, 149.5F};
+  std::vector<float> depth = std::vector<float>(camera.pixel_count(), floor);
+
+  ClutterScene() {
+    const auto put = [&](const Mesh& mesh, float x, float y, float height, float yaw, float roll) {
+      const Matrix3 turned =
+          (Eigen::AngleAxisf(yaw, Vector3::UnitZ()) * Eigen::AngleAxisf(roll, Vector3::UnitX())).toRotationMatrix();
+      draw_depth(mesh.view(), {turned, Vector3(x, y, floor - height)}, camera, depth);
+    };
+    put(box_mesh({0.11F, 0.08F, 0.04F}), -0.13F, -0.07F, 0.02F, 0.3F, 0.0F);
+    put(box_mesh({0.09F, 0.05F, 0.05F}), 0.02F, -0.07F, 0.035F, 1.2F, 0.785F);
+    put(box_mesh({0.12F, 0.012F, 0.03F}), 0.13F, -0.06F, 0.015F, -0.6F, 0.0F);
+    put(box_mesh({0.08F, 0.045F, 0.03F}), -0.11F, 0.06F, 0.015F, 0.9F, 0.0F);
+    put(rod_mesh(0.02F, 0.12F), 0.02F, 0.06F, 0.02F, -0.3F, 0.0F);
+  }
+  /// As a sensor would measure it, which no clutter fits perfectly.
+  [[nodiscard]] DepthFrame frame() {
+    std::mt19937 random(1);
+    std::normal_distribution<float> noise(0.0F, 0.0002F);
+    measured = depth;
+    for (float& metres : measured) metres += noise(random);
+    return {camera, measured, 0, 0};
+  }
+
+  std::vector<float> measured;
+  static constexpr float floor = 0.55F;
+};
+
+std::size_t brackets_found(ClutterScene& scene, Detections& detections, DetectMemory& memory) {
+  static const BracketBank bracket;
+  DetectRequest request;
+  request.banks = {&bracket.bank(), 1};
+  const Status status = detect(scene.frame(), request, {}, memory.workspace, detections);
+  EXPECT_TRUE(status.ok()) << status.message();
+  return detections.instances.size();
+}
+
+TEST(Clutter, HoldsNoBracket) {
+  ClutterScene scene;
+  DetectMemory memory(1);
+  Detections detections;
+  EXPECT_EQ(brackets_found(scene, detections, memory), 0U);
+  EXPECT_GT(detections.rejected.size(), 100U);
+}
+
+TEST(Clutter, BracketThatIsThereComesFirst) {
+  ClutterScene scene;
+  const RigidTransform camera_from_bracket{
+      (Eigen::AngleAxisf(0.5F, Vector3::UnitZ()) * Eigen::AngleAxisf(3.14159265F, Vector3::UnitX())).toRotationMatrix(),
+      Vector3(0.11F, 0.07F, ClutterScene::floor)};
+  draw_depth(bracket_mesh().view(), camera_from_bracket, scene.camera, scene.depth);
+  DetectMemory memory(1);
+  Detections detections;
+  ASSERT_GT(brackets_found(scene, detections, memory), 0U);
+  EXPECT_GT(score_of(detections.instances[0].evidence, false), sure_score);
+  EXPECT_LT((detections.instances[0].camera_from_part.translation - camera_from_bracket.translation).norm(), 0.002F);
+}
+
+}  // namespace
+}  // namespace graspd

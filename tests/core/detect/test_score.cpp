@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include "core/detect/score.hpp"
+
+namespace graspd {
+namespace {
+
+/// What a pose that fits well shows.
+Evidence good_evidence() {
+  Evidence evidence;
+  evidence.overlap = 0.9F;
+  evidence.visible = 0.7F;
+  evidence.purity = 0.97F;
+  evidence.measured = 0.75F;
+  evidence.edge = 0.95F;
+  evidence.outline = 80.0F;
+  evidence.lock = 0.1F;
+  evidence.misfit = 0.3F;
+  evidence.residual = 0.12F;
+  evidence.confirmed = 200.0F;
+  return evidence;
+}
+
+Evidence doubtful_evidence() {
+  Evidence evidence = good_evidence();
+  evidence.visible = 0.4F;
+  evidence.outline = 75.0F;
+  evidence.lock = 0.02F;
+  return evidence;
+}
+
+TEST(Score, IsAProbability) {
+  EXPECT_GT(score_of(good_evidence(), false), sure_score);
+  EXPECT_LT(score_of(good_evidence(), true), 1.0F);
+  EXPECT_EQ(score_of(Evidence{}, true), 0.0F);
+}
+
+TEST(Score, RisesWithWhatSpeaksForThePose) {
+  const Evidence base = doubtful_evidence();
+  const float score = score_of(base, false);
+  Evidence better = base;
+  better.visible += 0.1F;
+  EXPECT_GT(score_of(better, false), score);
+  better = base;
+  better.outline += 10.0F;
+  EXPECT_GT(score_of(better, false), score);
+  better = base;
+  better.lock += 0.05F;
+  EXPECT_GT(score_of(better, false), score);
+}
+
+TEST(Score, FallsWithWhatSpeaksAgainstIt) {
+  const Evidence base = doubtful_evidence();
+  const float score = score_of(base, false);
+  Evidence worse = base;
+  worse.edge = 0.5F;
+  EXPECT_LT(score_of(worse, false), score);
+  worse = base;
+  worse.misfit += 0.1F;
+  EXPECT_LT(score_of(worse, false), score);
+  worse = base;
+  worse.gap += 5.0F;
+  EXPECT_LT(score_of(worse, false), score);
+}
+
+TEST(Score, OutlineDecidesWhereTheSurfaceCouldSlide) {
+  const auto loss = [](float lock) {
+    Evidence evidence = doubtful_evidence();
+    evidence.lock = lock;
+    const float whole = score_of(evidence, false);
+    evidence.edge = 0.5F;
+    return whole / score_of(evidence, false);
+  };
+  EXPECT_GT(loss(0.0F), 3.0F * loss(0.3F));
+}
+
+TEST(Score, CompanyOfASureInstanceMakesAnotherLikelier) {
+  const Evidence evidence = doubtful_evidence();
+  EXPECT_GT(score_of(evidence, true), 5.0F * score_of(evidence, false));
+}
+
+TEST(EvidenceTests, FirstFailureIsNamed) {
+  const VerifyParameters parameters;
+  const VerifyThresholds thresholds;
+  EXPECT_EQ(failed_test(good_evidence(), parameters, thresholds), Rejection::none);
+  Evidence evidence = good_evidence();
+  evidence.below = 2.0F * thresholds.maximum_below;
+  EXPECT_EQ(failed_test(evidence, parameters, thresholds), Rejection::below_plane);
+  evidence.boundary = 2.0F * thresholds.maximum_boundary;
+  EXPECT_EQ(failed_test(evidence, parameters, thresholds), Rejection::boundary);
+  evidence.measured = 0.5F * parameters.minimum_measured;
+  EXPECT_EQ(failed_test(evidence, parameters, thresholds), Rejection::weak);
+}
+
+TEST(EvidenceTests, LessOfTheOutlineMustAgreeOnAShapeThatFitsOnlyItself) {
+  const VerifyParameters parameters;
+  const VerifyThresholds thresholds;
+  Evidence evidence = good_evidence();
+  evidence.edge = 0.8F * thresholds.minimum_edge;
+  evidence.lock = 0.0F;
+  EXPECT_EQ(failed_test(evidence, parameters, thresholds), Rejection::edge);
+  evidence.lock = 0.3F;
+  EXPECT_EQ(failed_test(evidence, parameters, thresholds), Rejection::none);
+}
+
+}  // namespace
+}  // namespace graspd
