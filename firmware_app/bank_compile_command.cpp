@@ -57,12 +57,8 @@ Status compile_part_file(const CompileOptions& options) {
 Status compile_bop(const CompileOptions& options) {
   const Result<std::vector<BopModel>> models = read_bop_models(options.bop_root);
   if (!models.ok()) return models.status();
-  std::error_code error;
-  std::filesystem::create_directories(options.output, error);
-  if (error) {
-    return Status::format(StatusCode::cannot_write, "%s: cannot be made: %s; choose another folder with -o",
-                          options.output.c_str(), error.message().c_str());
-  }
+  if (Status made = make_folder(options.output); !made.ok())
+    return {made.code(), std::string(made.message()) + "; choose another folder with -o"};
   std::size_t done = 0;
   for (const BopModel& model : models.value()) {
     const Result<PartDescription> part = part_from_bop(model);

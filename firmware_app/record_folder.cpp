@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <system_error>
 #include <utility>
 
 #include "drivers/files/atomic_file.hpp"
+#include "drivers/files/bop_dataset.hpp"
 #include "drivers/files/json_file.hpp"
 
 namespace graspd {
@@ -15,12 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int largest_number = 999999;
-
-std::string six_digits(int number) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%06d", number);
-  return text;
-}
 
 /// The number that a folder is named by; 0 for other names.
 int number_of(const fs::path& folder) {
@@ -49,9 +43,8 @@ fs::path RecordFolder::scenes() const { return fs::path(settings_.folder) / "rec
 
 Result<RecordFolder> RecordFolder::open(const RecordSettings& settings) {
   RecordFolder folder(settings);
+  if (Status made = make_folder(folder.scenes()); !made.ok()) return made;
   std::error_code error;
-  fs::create_directories(folder.scenes(), error);
-  if (error) return cannot_write(folder.scenes(), error);
   if (Status writable = check_writable(fs::path(settings.folder) / "recorded_targets_bop19.json"); !writable.ok()) {
     return writable;
   }
@@ -75,11 +68,10 @@ Result<RecordFolder> RecordFolder::open(const RecordSettings& settings) {
 Result<fs::path> RecordFolder::add(const std::set<std::uint32_t>& parts,
                                    const std::function<Status(const fs::path&)>& fill) {
   const fs::path unfinished = scenes() / ".unfinished";
-  const fs::path finished = scenes() / six_digits(next_);
+  const fs::path finished = scenes() / bop_number(next_);
   std::error_code error;
   fs::remove_all(unfinished, error);
-  fs::create_directories(unfinished, error);
-  if (error) return cannot_write(unfinished, error);
+  if (Status made = make_folder(unfinished); !made.ok()) return made;
   if (Status filled = fill(unfinished); !filled.ok()) {
     fs::remove_all(unfinished, error);
     return filled;
@@ -100,7 +92,7 @@ void RecordFolder::forget_oldest() {
   while (gone < recordings_.size() && (recordings_.size() - gone > static_cast<std::size_t>(settings_.maximum_frames) ||
                                        bytes > settings_.maximum_bytes)) {
     std::error_code ignored;
-    fs::remove_all(scenes() / six_digits(recordings_[gone].number), ignored);
+    fs::remove_all(scenes() / bop_number(recordings_[gone].number), ignored);
     bytes -= recordings_[gone].bytes;
     ++gone;
   }

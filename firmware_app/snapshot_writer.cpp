@@ -41,9 +41,7 @@ constexpr std::string_view prefix = "snapshot_";
 }  // namespace
 
 Status prepare_snapshots(const fs::path& folder) {
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (problem) return Status::format(StatusCode::cannot_write, "%s: %s", folder.c_str(), problem.message().c_str());
+  if (Status made = make_folder(folder); !made.ok()) return made;
   return check_writable(folder / prefix);
 }
 

@@ -76,12 +76,8 @@ Status run_validation(const ValidateOptions& options) {
     if (Status writable = check_writable(file); !writable.ok()) return writable;
   }
   if (!options.validation.picture_folder.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(options.validation.picture_folder, error);
-    if (error) {
-      return Status::format(StatusCode::cannot_write, "%s: cannot be made: %s; choose another --picture-dir",
-                            options.validation.picture_folder.c_str(), error.message().c_str());
-    }
+    if (Status made = make_folder(options.validation.picture_folder); !made.ok())
+      return {made.code(), std::string(made.message()) + "; choose another --picture-dir"};
   }
   ProgressBar bar;
   const Result<Validation> validation =

@@ -84,6 +84,13 @@ Status write_file(const fs::path& path, std::string_view text) {
   return write_file(path, std::as_bytes(std::span(text)));
 }
 
+Status make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return {};
+  return Status::format(StatusCode::cannot_write, "%s: cannot be made: %s", folder.c_str(), error.message().c_str());
+}
+
 Status check_writable(const fs::path& path) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);

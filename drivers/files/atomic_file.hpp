@@ -15,6 +15,10 @@ namespace graspd {
 [[nodiscard]] Status write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 [[nodiscard]] Status write_file(const std::filesystem::path& path, std::string_view text);
 
+/// Makes a folder and those above it; one that is there already is fine. Fails with cannot_write, the path and the
+/// system's reason.
+[[nodiscard]] Status make_folder(const std::filesystem::path& folder);
+
 /// Tells whether a file could be written into the folder of `path`, before long work is started for it.
 /// Fails with cannot_write.
 [[nodiscard]] Status check_writable(const std::filesystem::path& path);

@@ -20,12 +20,6 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-std::string six_digits(int number) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%06d", number);
-  return text.data();
-}
-
 /// The number that a key or a folder's name stands for, or -1.
 int number_of(const std::string& text) {
   int number = -1;
@@ -123,13 +117,19 @@ Status read_depth(const fs::path& path, float depth_scale, Camera& camera, std::
 
 }  // namespace
 
+std::string bop_number(int number) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%06d", number);
+  return text.data();
+}
+
 const BopImage* BopScene::find(int im_id) const {
   const auto found = std::find_if(images.begin(), images.end(), [&](const BopImage& i) { return i.im_id == im_id; });
   return found == images.end() ? nullptr : &*found;
 }
 
 fs::path bop_scene_folder(const fs::path& root, const std::string& split, int scene_id) {
-  return root / split / six_digits(scene_id);
+  return root / split / bop_number(scene_id);
 }
 
 bool is_bop_scene(const fs::path& folder) { return is_there(folder / "scene_camera.json"); }
@@ -220,7 +220,7 @@ Result<std::vector<BopModel>> read_bop_models(const fs::path& root) {
     JsonFields fields(value, path.string() + ": object " + std::to_string(obj_id));
     BopModel& model = models.emplace_back();
     model.obj_id = obj_id;
-    model.mesh_file = folder / ("obj_" + six_digits(obj_id) + ".ply");
+    model.mesh_file = folder / ("obj_" + bop_number(obj_id) + ".ply");
     model.diameter = static_cast<float>(fields.number("diameter") / 1000.0);
     if (model.diameter <= 0.0F) fields.reject("diameter", "must be greater than 0 (millimetres)");
     if (fields.has("symmetries_discrete")) {
@@ -265,7 +265,7 @@ Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id) {
   if (image == nullptr) {
     return Status::format(StatusCode::bad_file, "%s: no image %d", (scene.folder / "scene_camera.json").c_str(), im_id);
   }
-  const fs::path stem = scene.folder / "depth" / six_digits(im_id);
+  const fs::path stem = scene.folder / "depth" / bop_number(im_id);
   const fs::path path = find_depth_file(stem);
   if (path.empty()) {
     return Status::format(StatusCode::bad_file, "%s.png: no such file (nor .tif or .tiff)", stem.c_str());
@@ -279,8 +279,8 @@ Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id) {
     return Status::format(StatusCode::bad_frame, "%s: no pixel is measured: was the camera covered or its light off?",
                           path.c_str());
   }
-  fs::path empty_path = find_depth_file(scene.folder / "empty" / six_digits(im_id));
-  if (empty_path.empty()) empty_path = find_depth_file(scene.folder / "empty" / six_digits(0));
+  fs::path empty_path = find_depth_file(scene.folder / "empty" / bop_number(im_id));
+  if (empty_path.empty()) empty_path = find_depth_file(scene.folder / "empty" / bop_number(0));
   if (!empty_path.empty()) {
     const Status read_empty = read_depth(empty_path, image->depth_scale, frame.camera, frame.empty_depth);
     if (!read_empty.ok()) return read_empty;

@@ -65,6 +65,9 @@ struct BopResult {
   float seconds = -1.0F;  ///< For the whole image; -1: not known.
 };
 
+/// The name that a BOP data set gives to scene, image or object `number`: six digits.
+[[nodiscard]] std::string bop_number(int number);
+
 /// The folder of a scene, `root`/`split`/000001.
 [[nodiscard]] std::filesystem::path bop_scene_folder(const std::filesystem::path& root, const std::string& split,
                                                      int scene_id);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -36,19 +35,6 @@ class TiffBytes {
 
   std::vector<std::byte> bytes;
 };
-
-Status make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error) return {};
-  return Status::format(StatusCode::cannot_write, "%s: cannot be made: %s", folder.c_str(), error.message().c_str());
-}
-
-std::string six_digits(int number) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%06d", number);
-  return text;
-}
 
 int number_behind(const nlohmann::json& images) {
   int next = 0;
@@ -103,7 +89,7 @@ Result<fs::path> append_bop_image(const fs::path& scene_folder, const DepthFrame
       return Status::format(StatusCode::bad_file, "%s: not a list of images", cameras_file.c_str());
   }
   const int number = number_behind(images);
-  const fs::path image = scene_folder / "depth" / (six_digits(number) + ".tiff");
+  const fs::path image = scene_folder / "depth" / (bop_number(number) + ".tiff");
   if (Status written = write_depth_tiff(image, frame); !written.ok()) return written;
   const Camera& c = frame.camera;
   constexpr double millimetres_per_metre = 1000.0;

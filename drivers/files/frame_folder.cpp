@@ -47,9 +47,8 @@ constexpr double millimetres_per_step = 0.1;
 
 Status write_frame_folder(const fs::path& folder, const DepthFrame& frame) {
   const fs::path unfinished = folder.string() + ".unfinished";
+  if (Status made = make_folder(unfinished); !made.ok()) return made;
   std::error_code problem;
-  fs::create_directories(unfinished, problem);
-  if (problem) return cannot_write(unfinished, problem);
   Status written =
       write_depth_png(unfinished / "depth.png", frame.camera.width, frame.camera.height, depth_steps(frame));
   if (written.ok()) written = write_file(unfinished / "camera.json", camera_text(frame.camera));
