@@ -76,6 +76,7 @@ int run_command_line(int argument_count, const char* const* arguments) {
   add_check_command(app, outcome);
   add_camera_commands(app, outcome);
   add_simulate_command(app, outcome);
+  add_calibrate_command(app, outcome);
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::CallForHelp&) {

@@ -20,5 +20,6 @@ void add_validate_command(CLI::App& command_line, Status& outcome);
 void add_camera_commands(CLI::App& command_line, Status& outcome);
 void add_simulate_command(CLI::App& command_line, Status& outcome);
 void add_check_command(CLI::App& command_line, Status& outcome);
+void add_calibrate_command(CLI::App& command_line, Status& outcome);
 
 }  // namespace graspd

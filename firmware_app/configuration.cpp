@@ -55,7 +55,8 @@ Result<Configuration> read_configuration(const std::string& path) {
   }
   read_limits_section(root.table("limits"), configuration.detect.capacity, grasp.capacity);
   read_grasp_section(root.table("grasp"), grasp.parameters);
-  read_gripper_section(root.table("gripper"), grasp.parameters.gripper);
+  read_bin_section(root.table("bin"), grasp.parameters.bin);
+  read_tools(root, grasp.parameters.tools);
   read_modbus_section(root.table("modbus"), configuration);
   read_memory_section(root.table("memory"), configuration);
   read_output_section(root.table("output"), configuration);

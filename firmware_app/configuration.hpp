@@ -36,11 +36,12 @@ struct CameraSettings {
 struct DetectSettings {
   DetectParameters parameters;
   DetectCapacity capacity;
-  float minimum_score = -1.0F;   ///< When the PLC asks for none; negative: the bank's own.
-  std::int64_t deadline_ns = 0;  ///< After the trigger; 0: none.
+  RigidTransform robot_from_box;  ///< The box of BackgroundMode::box.
+  float minimum_score = -1.0F;    ///< When the PLC asks for none; negative: the bank's own.
+  std::int64_t deadline_ns = 0;   ///< After the trigger; 0: none.
 };
 
-/// [grasp] and [gripper]
+/// [grasp], [bin] and [[tool]]
 struct GraspSettings {
   GraspParameters parameters;
   GraspCapacity capacity;
@@ -57,8 +58,10 @@ enum class ModbusRole : std::uint8_t {
 struct Configuration {
   std::string path;
   CameraSettings camera;
-  std::vector<RequestBox> regions;  ///< [[region]], in the frame of the poses.
-  bool calibrated = false;          ///< robot_from_camera is given; it lies in grasp.parameters.
+  std::vector<RequestBox> regions;    ///< [[region]], in the frame of the poses.
+  bool calibrated = false;            ///< robot_from_camera is given; it lies in grasp.parameters.
+  bool camera_on_flange = false;      ///< flange_from_camera is given: the request brings the flange's pose.
+  RigidTransform flange_from_camera;  ///< Only with camera_on_flange.
   std::vector<std::string> banks;
   DetectSettings detect;
   GraspSettings grasp;

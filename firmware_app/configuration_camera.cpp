@@ -11,8 +11,8 @@ namespace {
 /// Calibrations are typed in with few digits; a matrix further from a rotation than this is a slip.
 constexpr float maximum_rotation_error = 0.01F;
 
-/// A rigid transform from 16 numbers (a 4x4 matrix, row by row) or 7 (x, y, z, qx, qy, qz, qw);
-/// translation in millimetres.
+}  // namespace
+
 bool read_transform(SettingsTable& table, std::string_view key, RigidTransform& transform) {
   if (!table.has(key)) return false;
   std::array<float, 16> matrix{};
@@ -46,8 +46,6 @@ bool read_transform(SettingsTable& table, std::string_view key, RigidTransform& 
   return true;
 }
 
-}  // namespace
-
 void read_camera_section(SettingsTable table, CameraSettings& camera) {
   constexpr std::array kinds{NamedValue<CameraKind>{"recorded", CameraKind::recorded},
                              NamedValue<CameraKind>{"genicam", CameraKind::genicam}};
@@ -80,8 +78,12 @@ void read_camera_section(SettingsTable table, CameraSettings& camera) {
 }
 
 void read_calibration_section(SettingsTable table, Configuration& configuration) {
-  configuration.calibrated =
-      read_transform(table, "robot_from_camera", configuration.grasp.parameters.robot_from_camera);
+  RigidTransform& robot_from_camera = configuration.grasp.parameters.robot_from_camera;
+  configuration.calibrated = read_transform(table, "robot_from_camera", robot_from_camera);
+  configuration.camera_on_flange = read_transform(table, "flange_from_camera", configuration.flange_from_camera);
+  if (configuration.calibrated && configuration.camera_on_flange) {
+    table.complain("flange_from_camera", "contradicts robot_from_camera: a camera is fixed or on the flange");
+  }
   table.finish();
 }
 

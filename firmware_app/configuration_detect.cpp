@@ -53,6 +53,7 @@ void read_detect_section(SettingsTable table, const RigidTransform& robot_from_c
   table.read("segmentation", preprocess.segmentation);
   if (const SettingsTable given = table.table("box"); given.present()) {
     const RequestBox box = read_box(given);
+    detect.robot_from_box = box.reference_from_box;
     preprocess.box_from_camera = inverse(box.reference_from_box) * robot_from_camera;
     preprocess.box_half_size = box.half_size;
   }
@@ -75,6 +76,8 @@ void read_limits_section(SettingsTable table, DetectCapacity& detect, GraspCapac
   table.read("judged", detect.judged, 10, 100000);
   table.read("instances", detect.instances, 1, 10000);
   table.read("grasp_candidates", grasp.candidates, 1, 100000);
+  table.read("grasp_checks", grasp.checks, 1, 1000000);
+  table.read("grasp_cells", grasp.cloud_cells, 1000, 16777216);
   table.finish();
   // Whatever is found is looked at by the planner: a second limit could only lose picks.
   grasp.instances = detect.instances;

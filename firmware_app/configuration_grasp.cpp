@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+
 #include "firmware_app/configuration_sections.hpp"
 
 namespace graspd {
@@ -35,6 +38,32 @@ void read_direction(SettingsTable& table, std::string_view key, Vector3& directi
   }
 }
 
+void read_order(SettingsTable table, OrderParameters& order) {
+  constexpr std::array orders{NamedValue<PickOrder>{"value", PickOrder::value},
+                              NamedValue<PickOrder>{"top_first", PickOrder::top_first},
+                              NamedValue<PickOrder>{"nearest", PickOrder::nearest},
+                              NamedValue<PickOrder>{"fewest_neighbours", PickOrder::fewest_neighbours}};
+  table.read_choice<PickOrder>("by", order.order, orders);
+  table.read("point", order.point, metres_per_millimetre);
+  table.read("step", order.step, 0.1, 1000, metres_per_millimetre);
+  table.read("neighbour_distance", order.neighbour_distance, 0, 10000, metres_per_millimetre);
+  table.finish();
+}
+
+void read_retreat(SettingsTable table, RetreatParameters& retreat) {
+  constexpr std::array directions{NamedValue<RetreatDirection>{"tool", RetreatDirection::tool},
+                                  NamedValue<RetreatDirection>{"up", RetreatDirection::up}};
+  table.read_choice<RetreatDirection>("direction", retreat.direction, directions);
+  table.read("distance", retreat.distance, 0, 2000, metres_per_millimetre);
+  table.finish();
+}
+
+void read_avoid(SettingsTable table, AvoidParameters& avoid) {
+  table.read("radius", avoid.radius, 0, 1000, metres_per_millimetre);
+  table.read("runs", avoid.runs, 0U, 1000U);
+  table.finish();
+}
+
 }  // namespace
 
 void read_grasp_section(SettingsTable table, GraspParameters& grasp) {
@@ -47,30 +76,31 @@ void read_grasp_section(SettingsTable table, GraspParameters& grasp) {
   table.read("clearance_range", grasp.collision.clearance_range, 0.1, 1000, metres_per_millimetre);
   table.read("sample_spacing", grasp.collision.sample_spacing, 0.1, 100, metres_per_millimetre);
   table.read("minimum_points", grasp.collision.minimum_points, 1U, 8U);
+  table.read("maximum_unseen", grasp.collision.maximum_unseen, 0, 1);
+  read_retreat(table.table("retreat"), grasp.retreat);
   read_reach(table.table("reach"), grasp.reach);
+  read_order(table.table("order"), grasp.order);
+  read_avoid(table.table("avoid"), grasp.avoid);
   read_weights(table.table("weights"), grasp.weights);
   table.finish();
 }
 
-void read_gripper_section(SettingsTable table, GripperParameters& gripper) {
-  const auto length = [&](std::string_view key, float& value) {
-    table.read(key, value, 0, 2000, metres_per_millimetre);
-  };
-  length("maximum_opening", gripper.maximum_opening);
-  length("finger_thickness", gripper.finger_thickness);
-  length("finger_width", gripper.finger_width);
-  length("finger_length", gripper.finger_length);
-  length("finger_tip", gripper.finger_tip);
-  length("palm_width", gripper.palm_width);
-  length("palm_depth", gripper.palm_depth);
-  length("palm_height", gripper.palm_height);
-  length("cup_radius", gripper.cup_radius);
-  length("cup_length", gripper.cup_length);
-  length("tube_radius", gripper.tube_radius);
-  length("tube_length", gripper.tube_length);
-  length("contact_margin", gripper.contact_margin);
-  table.read("half_turn", gripper.half_turn);
+void read_bin_section(SettingsTable table, BinParameters& bin) {
+  if (!table.present()) return;
+  Vector3 centre = Vector3::Zero();
+  float turn = 0;
+  bin.present = true;
+  table.require("centre", "give the middle of the inside of the bin, in millimetres");
+  table.require("size", "give the inner lengths of the bin, in millimetres");
+  table.read("centre", centre, metres_per_millimetre);
+  table.read("size", bin.inner_size, metres_per_millimetre);
+  table.read("turn", turn, -360, 360, radians_per_degree);
+  table.read("wall", bin.wall, 1, 1000, metres_per_millimetre);
+  if (table.has("size") && !(bin.inner_size.minCoeff() > 0)) {
+    table.complain("size", "must hold three lengths greater than 0");
+  }
   table.finish();
+  bin.robot_from_bin = {Eigen::AngleAxisf(turn, Vector3::UnitZ()).toRotationMatrix(), centre};
 }
 
 }  // namespace graspd

@@ -48,7 +48,10 @@ PickSettings pick_settings(const Configuration& configuration) {
   settings.detect = configuration.detect.parameters;
   settings.grasp = configuration.grasp.parameters;
   settings.regions = configuration.regions;
-  settings.calibrated = configuration.calibrated;
+  settings.calibrated = configuration.calibrated || configuration.camera_on_flange;
+  settings.camera_on_flange = configuration.camera_on_flange;
+  settings.flange_from_camera = configuration.flange_from_camera;
+  settings.robot_from_box = configuration.detect.robot_from_box;
   settings.keeps_snapshots = !configuration.snapshots.empty();
   settings.minimum_score = configuration.detect.minimum_score;
   settings.deadline_ns = configuration.detect.deadline_ns;

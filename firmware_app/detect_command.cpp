@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,8 @@
 #include "firmware_app/configuration.hpp"
 #include "firmware_app/detection_report.hpp"
 #include "firmware_app/detection_session.hpp"
+#include "firmware_app/drawn_grasps.hpp"
+#include "firmware_app/grasp_session.hpp"
 #include "firmware_app/loaded_banks.hpp"
 
 namespace graspd {
@@ -32,6 +36,7 @@ struct DetectOptions {
   bool rejected = false;
   bool replayable = false;
   std::string configuration;
+  std::vector<float> flange;
 };
 
 Result<LoadedFrame> read_frame(const DetectOptions& options) {
@@ -47,6 +52,35 @@ Result<LoadedFrame> read_frame(const DetectOptions& options) {
   return load_frame(options.frame, files);
 }
 
+/// Puts a camera that is on the flange where it was when the frame was taken.
+Status place_camera(const std::vector<float>& flange, Configuration& configuration) {
+  if (!configuration.camera_on_flange) return {};
+  if (flange.empty()) {
+    return {StatusCode::usage,
+            "the camera is on the flange (calibration.flange_from_camera): give the flange's pose with --flange"};
+  }
+  const Eigen::Quaternionf turn(flange[6], flange[3], flange[4], flange[5]);
+  if (std::abs(turn.norm() - 1.0F) > 0.01F) {
+    return {StatusCode::usage, "--flange: the last four numbers must be a quaternion (x, y, z, w) of length 1"};
+  }
+  const RigidTransform robot_from_flange{turn.normalized().toRotationMatrix(),
+                                         0.001F * Vector3(flange[0], flange[1], flange[2])};
+  const RigidTransform robot_from_camera = robot_from_flange * configuration.flange_from_camera;
+  configuration.grasp.parameters.robot_from_camera = robot_from_camera;
+  configuration.detect.parameters.preprocess.box_from_camera =
+      inverse(configuration.detect.robot_from_box) * robot_from_camera;
+  return {};
+}
+
+/// As the configuration file says, or with the defaults.
+Result<Configuration> read_settings(const DetectOptions& options) {
+  if (options.configuration.empty()) return Configuration{};
+  Result<Configuration> configuration = read_configuration(options.configuration);
+  if (!configuration.ok()) return configuration;
+  if (Status placed = place_camera(options.flange, configuration.value()); !placed.ok()) return placed;
+  return configuration;
+}
+
 std::string caption(const LoadedFrame& frame, const Detections& detections, double seconds) {
   char text[64];
   std::snprintf(text, sizeof text, ": %zu instances in %.2f s", detections.instances.size(), seconds);
@@ -58,32 +92,34 @@ Status detect_frame(const DetectOptions& options) {
   if (!banks.ok()) return banks.status();
   Result<LoadedFrame> loaded = read_frame(options);
   if (!loaded.ok()) return loaded.status();
+  const Result<Configuration> settings = read_settings(options);
+  if (!settings.ok()) return settings.status();
   LoadedFrame& file = loaded.value();
   const DepthFrame frame = file.frame();
 
   DetectionSession session;
   session.fit({frame.camera.width, frame.camera.height}, banks.value().banks, options.threads);
-  DetectParameters parameters;
-  float minimum_score = options.minimum_score;
-  if (!options.configuration.empty()) {
-    const Result<Configuration> configuration = read_configuration(options.configuration);
-    if (!configuration.ok()) return configuration.status();
-    parameters = configuration.value().detect.parameters;
-    if (minimum_score < 0) minimum_score = configuration.value().detect.minimum_score;
-  }
+  const DetectSettings& detect_settings = settings.value().detect;
+  DetectParameters parameters = detect_settings.parameters;
   parameters.threads = options.threads;
   DetectRequest request;
   request.banks = banks.value().banks;
   if (!options.no_background && !file.empty_depth.empty()) request.empty_bin = file.empty_bin();
-  request.minimum_score = minimum_score;
+  request.minimum_score = options.minimum_score >= 0 ? options.minimum_score : detect_settings.minimum_score;
   request.now_ns = &monotonic_ns;
   Detections detections;
   const std::int64_t start = monotonic_ns();
   if (Status detected = session.run(frame, request, parameters, detections); !detected.ok()) return detected;
   const double seconds = static_cast<double>(monotonic_ns() - start) * 1e-9;
 
+  const GraspParameters& grasp_parameters = settings.value().grasp.parameters;
+  GraspSession grasp_session(settings.value().grasp.capacity);
+  const PickResult picks = grasp_session.run(frame, detections, banks.value().banks, grasp_parameters);
+
+  // A recording holds what was detected, not what a gripper could do with it.
+  const PickResult* reported_picks = options.replayable ? nullptr : &picks;
   const DetectionReport report{file.name, &frame,           banks.value().banks, &detections,
-                               seconds,   options.rejected, options.replayable};
+                               seconds,   options.rejected, options.replayable,  reported_picks};
   if (options.json == "-") {
     std::fputs(report_as_json(report).c_str(), stdout);
   } else {
@@ -94,8 +130,10 @@ Status detect_frame(const DetectOptions& options) {
   }
   if (options.picture.empty()) return {};
   const std::vector<DrawnInstance> drawn = drawn_instances(detections.instances, banks.value().banks);
-  return write_picture(options.picture,
-                       draw_detections(frame, drawn, std::nullopt, caption(file, detections, seconds)));
+  std::optional<DrawnPick> pick;
+  if (picks.found) pick = drawn_pick(picks.best, grasp_parameters);
+  return write_picture(options.picture, draw_detections(frame, drawn, pick, caption(file, detections, seconds),
+                                                        drawn_rejections(picks, grasp_parameters)));
 }
 
 }  // namespace
@@ -122,14 +160,22 @@ void add_detect_command(CLI::App& command_line, Status& outcome) {
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--json", options->json, "Write the result as JSON into this file; - for stdout");
   command->add_option("--picture", options->picture, "Write the frame with the instances over it into this PNG");
-  command->add_option("--config", options->configuration, "Detect as [detect] of this configuration file says");
+  command->add_option(
+      "--config", options->configuration,
+      "Detect as [detect] says and choose the pick with the tools, limits and calibration of this graspd.toml");
+  command
+      ->add_option("--flange", options->flange,
+                   "For a camera on the flange: the flange's pose at the exposure, x y z qx qy qz qw, millimetres")
+      ->expected(7)
+      ->needs("--config");
   command->add_flag("--replayable", options->replayable,
                     "JSON without the frame's name and times, as recordings hold it");
   command->add_flag("--rejected", options->rejected, "List every rejected hypothesis with its reason");
   command->footer(
       "Prints every instance with its pose (camera from part, millimetres), the figures on which\n"
-      "it was judged, and how many hypotheses were rejected for which reason. Finding nothing is\n"
-      "no error.\n"
+      "it was judged, how many hypotheses were rejected for which reason, and the best pick. The\n"
+      "picture shows the gripper at the pick in yellow and rejected grasps in red. Finding nothing\n"
+      "is no error.\n"
       "\n"
       "Examples:\n"
       "  graspd detect scene/depth/000000.png --bank bushing.bank --picture found.png\n"

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "firmware_app/pick_report.hpp"
+
 namespace graspd {
 namespace {
 
@@ -135,6 +137,7 @@ std::string report_as_text(const DetectionReport& report) {
   append_rejections(text, detections);
   if (detections.flags != 0) text += "cut        " + flag_names(detections.flags) + '\n';
   append(text, "found      %zu instances\n", detections.instances.size());
+  if (report.picks != nullptr) text += picks_as_text(*report.picks);
   if (!detections.instances.empty()) {
     text += '\n';
     append_poses(text, report);
@@ -176,6 +179,7 @@ std::string report_as_json(const DetectionReport& report) {
   for (const Instance& instance : detections.instances) {
     document["instances"].push_back(instance_as_json(report, instance));
   }
+  if (report.picks != nullptr) document["picks"] = picks_as_json(*report.picks);
   if (report.with_rejected) {
     document["rejected"] = Json::array();
     for (const Instance& instance : detections.rejected) {

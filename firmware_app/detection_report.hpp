@@ -8,6 +8,7 @@
 
 #include "core/bank/bank.hpp"
 #include "core/detect/detections.hpp"
+#include "core/grasp/pick.hpp"
 #include "drivers/files/detection_picture.hpp"
 
 namespace graspd {
@@ -18,9 +19,10 @@ struct DetectionReport {
   const DepthFrame* frame = nullptr;
   std::span<const Bank> banks;
   const Detections* detections = nullptr;
-  double seconds = 0;          ///< From depth in memory to verified instances.
-  bool with_rejected = false;  ///< List every hypothesis that was judged and rejected, too.
-  bool replayable = false;     ///< JSON without the frame's name and times, which differ from run to run.
+  double seconds = 0;                 ///< From depth in memory to verified instances.
+  bool with_rejected = false;         ///< List every hypothesis that was judged and rejected, too.
+  bool replayable = false;            ///< JSON without the frame's name and times, which differ from run to run.
+  const PickResult* picks = nullptr;  ///< What the gripper could do; null: not asked.
 };
 
 /// Tables for a person: instances with poses (millimetres) and evidence, rejections by reason, times.

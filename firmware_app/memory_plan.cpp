@@ -27,6 +27,7 @@ WorkingMemory carve_working_memory(Arena& arena, const WorkingCapacity& capacity
   memory.frame = arena.take<float>(capacity.frame_pixels, "frame");
   memory.detect = carve_detect_workspace(arena, capacity.detect);
   memory.grasp = carve_grasp_workspace(arena, capacity.grasp);
+  memory.avoided = carve_avoid_list(arena);
   if (capacity.picture) {
     memory.pictured_frame = arena.take<float>(capacity.frame_pixels, "picture");
     memory.pictured_instances = arena.take<Instance>(capacity.detect.instances, "picture");

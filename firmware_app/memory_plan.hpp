@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/detect/workspace.hpp"
+#include "core/grasp/avoid_list.hpp"
 #include "core/grasp/workspace.hpp"
 #include "core/memory/arena.hpp"
 #include "drivers/camera/frame_source.hpp"
@@ -27,6 +28,7 @@ struct WorkingMemory {
   std::span<float> frame;
   DetectWorkspace detect;
   GraspWorkspace grasp;
+  AvoidList avoided;
   std::span<float> pictured_frame;
   std::span<Instance> pictured_instances;
   std::span<float> snapshot_frame;

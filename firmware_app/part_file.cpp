@@ -15,6 +15,7 @@ constexpr double metres_per_millimetre = 0.001;
 constexpr float maximum_skew = 0.0175F;  // sin of 1 degree
 /// The full symmetry group of a cube has 24 members, of a gear as many as teeth (doubled with a flip).
 constexpr std::size_t maximum_symmetries = 720;
+constexpr std::size_t maximum_grasps = 4096;
 
 bool read_direction(SettingsTable& table, std::string_view key, Vector3& direction) {
   if (!table.read(key, direction)) return false;
@@ -78,18 +79,70 @@ void read_symmetry(SettingsTable table, PartDescription& part) {
   table.finish();
 }
 
-void read_grasp(SettingsTable table, PartDescription& part) {
+/// The grasp at even turns about an axis; they share its number.
+void expand_about_axis(SettingsTable table, const PartGrasp& grasp, std::vector<PartGrasp>& grasps) {
+  if (!table.present()) {
+    grasps.push_back(grasp);
+    return;
+  }
+  constexpr float circle = 2 * std::numbers::pi_v<float>;
+  constexpr float degree = circle / 360;
+  SymmetryAxis axis;
+  int steps = 12;
+  float from = 0;
+  float to = circle;
+  table.require("axis", "give the direction of the axis, as axis = [0, 0, 1]");
+  const bool direction = read_direction(table, "axis", axis.direction);
+  table.read("offset", axis.point, metres_per_millimetre);
+  table.read("steps", steps, 2, 360);
+  table.read("from", from, -360, 360, degree);
+  table.read("to", to, -360, 720, degree);
+  if (!(to > from && to - from <= circle + 1e-4F)) table.complain("to", "must be greater than from, by at most 360");
+  table.finish();
+  if (!direction) return;
+  // On a full circle the last turn would be the first once more.
+  const bool closed = to - from > circle - 1e-3F;
+  const float step = (to - from) / static_cast<float>(closed ? steps : steps - 1);
+  for (int i = 0; i < steps; ++i) {
+    PartGrasp turned = grasp;
+    turned.part_from_tool = turn_about(axis, from + step * static_cast<float>(i)) * grasp.part_from_tool;
+    turned.part_from_tool.rotation = orthonormalised(turned.part_from_tool.rotation);
+    grasps.push_back(turned);
+  }
+}
+
+void read_widths(SettingsTable& table, PartGrasp& grasp) {
+  table.require("width",
+                "give the width between the jaws before they close, or the least and the most, in millimetres");
+  table.read_range("width", grasp.least_opening, grasp.opening, 0, 1000, metres_per_millimetre);
+  table.read("held_width", grasp.held_width, 0, 1000, metres_per_millimetre);
+  if (table.has("width") && !(grasp.least_opening > 0)) table.complain("width", "must be greater than 0");
+  if (grasp.held_width > grasp.least_opening) table.complain("held_width", "must not be greater than width");
+}
+
+void read_grasp(SettingsTable table, std::uint32_t number, PartDescription& part) {
+  constexpr std::array kinds{NamedValue<GraspKind>{"parallel", GraspKind::parallel},
+                             NamedValue<GraspKind>{"suction", GraspKind::suction},
+                             NamedValue<GraspKind>{"magnetic", GraspKind::magnetic}};
   PartGrasp grasp;
-  grasp.number = static_cast<std::uint32_t>(part.grasps.size() + 1);
+  grasp.number = number;
   Vector3 approach = Vector3::UnitZ();
   Vector3 closing = Vector3::UnitX();
+  table.read_choice<GraspKind>("kind", grasp.kind, kinds);
   table.require("position", "give the tool centre point in the part's frame, in millimetres");
   table.require("approach", "give the direction in which the tool moves towards the part");
-  table.require("closing", "give the direction in which the jaws close");
   table.read("position", grasp.part_from_tool.translation, metres_per_millimetre);
-  const bool directions = read_direction(table, "approach", approach) & read_direction(table, "closing", closing);
-  table.read("width", grasp.opening, 0, 1000, metres_per_millimetre);
+  bool directions = read_direction(table, "approach", approach);
+  if (grasp.kind == GraspKind::parallel) table.require("closing", "give the direction in which the jaws close");
+  if (grasp.kind == GraspKind::parallel || table.has("closing")) {
+    directions = read_direction(table, "closing", closing) && directions;
+  } else {
+    closing = approach.unitOrthogonal();
+  }
+  if (grasp.kind == GraspKind::parallel) read_widths(table, grasp);
   table.read("priority", grasp.priority, -1000, 1000);
+  table.read("tool", grasp.tool, 0U, 65535U);
+  SettingsTable around = table.table("around");
   table.finish();
   if (!directions) return;
   const float skew = approach.dot(closing);
@@ -101,7 +154,18 @@ void read_grasp(SettingsTable table, PartDescription& part) {
   grasp.part_from_tool.rotation.col(0) = x;
   grasp.part_from_tool.rotation.col(1) = approach.cross(x);
   grasp.part_from_tool.rotation.col(2) = approach;
-  part.grasps.push_back(grasp);
+  expand_about_axis(around, grasp, part.grasps);
+}
+
+void read_grasps(SettingsTable& root, PartDescription& part) {
+  std::uint32_t number = 0;
+  for (SettingsTable& grasp : root.tables("grasp")) {
+    read_grasp(grasp, ++number, part);
+    if (part.grasps.size() > maximum_grasps) {
+      grasp.complain("position", "makes more than " + std::to_string(maximum_grasps) + " grasps, with all turns");
+      return;
+    }
+  }
 }
 
 void read_thresholds(SettingsTable table, VerifyThresholds& thresholds) {
@@ -151,7 +215,7 @@ Result<PartFile> read_part_file(const std::string& path) {
                              NamedValue<LengthUnit>{"m", LengthUnit::metres}};
   root.read_choice<LengthUnit>("units", result.mesh_unit, units);
   read_symmetry(root.table("symmetry"), part);
-  for (SettingsTable& grasp : root.tables("grasp")) read_grasp(grasp, part);
+  read_grasps(root, part);
   read_thresholds(root.table("thresholds"), part.thresholds);
   read_build(root.table("build"), result.build);
   root.finish();

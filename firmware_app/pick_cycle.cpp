@@ -81,7 +81,8 @@ ListedPick listed_pick(const Capture& capture, const Pick& pick) {
 
 /// Puts the picks that are next in line into the block, as many as are wanted, and counts them as given
 /// unless this is a dry run.
-void put_picks(const PickCycle& cycle, const PlcRequest& request, Capture& capture, ResultBlock& block) {
+void put_picks(PickCycle& cycle, const PlcRequest& request, ResultBlock& block) {
+  Capture& capture = cycle.capture;
   const std::span<const Pick> left = capture.picks.picks.subspan(capture.given);
   const std::size_t count = std::min<std::size_t>({left.size(), request.results_wanted, block.listed.size()});
   const Pick& pick = left.front();
@@ -104,7 +105,29 @@ void put_picks(const PickCycle& cycle, const PlcRequest& request, Capture& captu
     block.listed[i] = listed_pick(capture, left[i]);
   }
   block.listed_count = register_value(count);
-  if (!request.dry_run) capture.given += count;
+  if (request.dry_run) return;
+  capture.given += count;
+  cycle.last_place = left[count - 1].robot_from_tool.translation;
+}
+
+/// The PLC says that the pick it was told of last has failed.
+void avoid_last_place(PickCycle& cycle) {
+  if (!cycle.last_place) return;
+  const AvoidParameters& avoid = cycle.settings.grasp.avoid;
+  cycle.memory.avoided.add(*cycle.last_place, avoid.radius, avoid.runs);
+  cycle.last_place.reset();
+}
+
+/// Takes what is too near to avoided places out of the picks that the PLC was not told of yet.
+void drop_avoided_picks(PickCycle& cycle) {
+  Capture& capture = cycle.capture;
+  FixedVector<Pick>& picks = cycle.memory.grasp.picks;
+  auto* const end = std::remove_if(picks.begin() + capture.given, picks.end(), [&](const Pick& pick) {
+    return is_avoided(cycle.memory.avoided.places(), pick.robot_from_tool.translation,
+                      cycle.settings.grasp.avoid.radius);
+  });
+  picks.truncate(static_cast<std::size_t>(end - picks.begin()));
+  capture.picks.picks = picks.span();
 }
 
 ResultBlock begin_block(const PlcRequest& request) {
@@ -143,11 +166,13 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
   Capture& capture = cycle.capture;
   // From here on nothing of an earlier frame can reach the registers.
   capture = {};
-  DetectParameters parameters = cycle.settings.detect;
-  if (Status resolved = resolve_request(request, cycle.settings, cycle.banks, capture.banks, parameters);
-      !resolved.ok()) {
-    return failed(cycle, request, resolved);
+  ResolvedRequest resolved;
+  if (Status sound = resolve_request(request, cycle.settings, cycle.banks, resolved); !sound.ok()) {
+    return failed(cycle, request, sound);
   }
+  capture.banks = resolved.banks;
+  capture.robot_from_camera = resolved.grasp.robot_from_camera;
+  if (request.avoid_last_place) avoid_last_place(cycle);
 
   const std::int64_t start = now();
   const Status grabbed = grab(cycle, capture.frame);
@@ -158,16 +183,17 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
   if (!plc.is_wanted(request.sequence)) return given_up(request);
 
   const Status detected =
-      detect(capture.frame, detect_request(cycle, request), parameters, cycle.memory.detect, capture.detections);
+      detect(capture.frame, detect_request(cycle, request), resolved.detect, cycle.memory.detect, capture.detections);
   if (!detected.ok()) return failed(cycle, request, detected);
   const std::int64_t found = now();
-  capture.picks =
-      choose_pick(capture.frame, capture.detections, capture.banks, cycle.settings.grasp, cycle.memory.grasp);
+  capture.picks = choose_pick(capture.frame, capture.detections, capture.banks, resolved.grasp, cycle.memory.grasp,
+                              cycle.memory.avoided.places());
+  cycle.memory.avoided.age();
   capture.answered = true;
 
   Answer answer{begin_block(request), {}};
   put_verdict(capture, answer.block);
-  if (capture.picks.found) put_picks(cycle, request, capture, answer.block);
+  if (capture.picks.found) put_picks(cycle, request, answer.block);
   set_time(answer.block, BlockStage::capture, taken - start);
   for (std::size_t i = 0; i < stage_count; ++i) {
     const auto stage = static_cast<BlockStage>(static_cast<std::size_t>(BlockStage::preprocess) + i);
@@ -181,10 +207,12 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
 Answer answer_next(PickCycle& cycle, const PlcRequest& request) {
   Capture& capture = cycle.capture;
   if (Status served = check_served(request, cycle.settings); !served.ok()) return failed(cycle, request, served);
+  if (request.avoid_last_place) avoid_last_place(cycle);
+  if (request.avoid_last_place && capture.answered) drop_avoided_picks(cycle);
   Answer answer{begin_block(request), {}};
   if (capture.answered) put_verdict(capture, answer.block);
   if (capture.answered && capture.given < capture.picks.picks.size()) {
-    put_picks(cycle, request, capture, answer.block);
+    put_picks(cycle, request, answer.block);
   } else {
     answer.block.code = ResultCode::nothing_left;
     answer.block.reason = ResultReason::none;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,11 +18,14 @@ namespace graspd {
 struct PickSettings {
   DetectParameters detect;
   GraspParameters grasp;
-  std::vector<RequestBox> regions;  ///< That a request may name, from number 1 on.
-  bool calibrated = false;          ///< Poses are in the robot's frame.
-  bool keeps_snapshots = false;     ///< A request may ask to keep the frame.
-  float minimum_score = -1.0F;      ///< When the PLC asks for none; negative: the bank's own.
-  std::int64_t deadline_ns = 0;     ///< After the trigger; 0: none.
+  std::vector<RequestBox> regions;    ///< That a request may name, from number 1 on.
+  bool calibrated = false;            ///< Poses are in the robot's frame.
+  bool camera_on_flange = false;      ///< Each request must bring the flange's pose.
+  RigidTransform flange_from_camera;  ///< Only with camera_on_flange.
+  RigidTransform robot_from_box;      ///< The box of BackgroundMode::box.
+  bool keeps_snapshots = false;       ///< A request may ask to keep the frame.
+  float minimum_score = -1.0F;        ///< When the PLC asks for none; negative: the bank's own.
+  std::int64_t deadline_ns = 0;       ///< After the trigger; 0: none.
   std::int64_t maximum_age_ns = 0;
   std::int64_t (*now_ns)() = nullptr;  ///< Monotonic clock.
 };
@@ -30,6 +34,7 @@ struct PickSettings {
 struct Capture {
   bool answered = false;  ///< Everything below belongs to one frame and is verified.
   DepthFrame frame;
+  RigidTransform robot_from_camera;  ///< At the exposure.
   std::span<const Bank> banks;
   Detections detections;
   PickResult picks;
@@ -43,6 +48,7 @@ struct PickCycle {
   FrameSource* source = nullptr;
   WorkingMemory memory;
   Capture capture;
+  std::optional<Vector3> last_place;  ///< Of the pick that the PLC was told of last, robot frame, until it is avoided.
 };
 
 /// The answer to a request, and for the journal what went wrong.

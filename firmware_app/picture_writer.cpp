@@ -9,11 +9,12 @@
 #include "drivers/system/log.hpp"
 #include "firmware_app/answer_text.hpp"
 #include "firmware_app/detection_report.hpp"
+#include "firmware_app/drawn_grasps.hpp"
 
 namespace graspd {
 
 PictureWriter::PictureWriter(std::filesystem::path path, WorkingMemory& memory, const GraspParameters& grasp)
-    : path_(std::move(path)), memory_(memory), camera_from_robot_(inverse(grasp.robot_from_camera)) {
+    : path_(std::move(path)), memory_(memory), grasp_(grasp) {
   thread_ = std::thread([this] { work(); });
 }
 
@@ -36,6 +37,7 @@ void PictureWriter::offer(const Capture& capture, const Answer& answer) {
     instance_count_ = std::min(capture.detections.instances.size(), memory_.pictured_instances.size());
     std::copy_n(capture.detections.instances.begin(), instance_count_, memory_.pictured_instances.begin());
     banks_ = capture.banks;
+    grasp_.robot_from_camera = capture.robot_from_camera;
     pick_.reset();
     if (has_poses(answer.block)) pick_ = capture.picks.picks[answer.block.result_index - std::size_t{1}];
     answer_ = answer;
@@ -65,10 +67,7 @@ void PictureWriter::draw() {
   const std::vector<DrawnInstance> instances =
       drawn_instances(memory_.pictured_instances.first(instance_count_), banks_);
   std::optional<DrawnPick> pick;
-  if (pick_) {
-    pick = DrawnPick{pick_->instance, camera_from_robot_ * pick_->robot_from_tool,
-                     camera_from_robot_ * pick_->robot_from_approach, pick_->opening};
-  }
+  if (pick_) pick = drawn_pick(*pick_, grasp_);
   std::array<char, 640> caption{};
   explain_answer(answer_, caption);
   const Status written = write_picture(path_, draw_detections(frame, instances, pick, caption.data()));

@@ -32,7 +32,7 @@ class PictureWriter {
 
   std::filesystem::path path_;
   WorkingMemory& memory_;
-  RigidTransform camera_from_robot_;
+  GraspParameters grasp_;
   std::mutex mutex_;
   std::condition_variable wake_;
   bool pending_ = false;

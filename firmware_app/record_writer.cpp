@@ -152,6 +152,7 @@ std::string RecordWriter::record_text() const {
                        {"sequence", request_.sequence},
                        {"part", request_.part},
                        {"minimum_score", request_.minimum_score}};
+  if (request_.has_flange_pose) record["request"]["flange"] = pose_as_json(request_.robot_from_flange);
   record["result"] = {{"code", std::string(result_code_name(block.code))},
                       {"reason", std::string(result_reason_name(block.reason))},
                       {"instances_found", block.instances_found},

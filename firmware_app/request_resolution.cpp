@@ -18,7 +18,28 @@ Status select_banks(std::span<const Bank> banks, std::uint16_t part, std::span<c
 
 bool is_finite(const RigidTransform& pose) { return pose.rotation.allFinite() && pose.translation.allFinite(); }
 
-Status select_region(const PlcRequest& request, const PickSettings& settings, PreprocessParameters& preprocess) {
+/// Orientations come in with the few digits of registers.
+bool is_pose(const RigidTransform& pose) {
+  return is_finite(pose) && (pose.rotation * pose.rotation.transpose()).isIdentity(1e-3F) &&
+         pose.rotation.determinant() > 0.0F;
+}
+
+Status place_camera(const PlcRequest& request, const PickSettings& settings, ResolvedRequest& resolved) {
+  if (request.has_flange_pose && !is_pose(request.robot_from_flange)) {
+    return {StatusCode::bad_request, "flange_pose in the request is no pose: check its numbers and the word order"};
+  }
+  if (!settings.camera_on_flange) return {};
+  if (!request.has_flange_pose) {
+    return {StatusCode::bad_request,
+            "the camera is on the flange: set flange_pose_given in options and write flange_pose"};
+  }
+  const RigidTransform robot_from_camera = request.robot_from_flange * settings.flange_from_camera;
+  resolved.grasp.robot_from_camera = robot_from_camera;
+  resolved.detect.preprocess.box_from_camera = inverse(settings.robot_from_box) * robot_from_camera;
+  return {};
+}
+
+Status select_region(const PlcRequest& request, const PickSettings& settings, ResolvedRequest& resolved) {
   if (request.region == 0) return {};
   const bool by_number = request.region != request_region::box;
   if (by_number && request.region > settings.regions.size()) {
@@ -29,8 +50,9 @@ Status select_region(const PlcRequest& request, const PickSettings& settings, Pr
   if (!is_finite(box.reference_from_box) || !box.half_size.allFinite() || !(box.half_size.minCoeff() > 0)) {
     return {StatusCode::bad_request, "region_box in the request is no box: check its numbers and the word order"};
   }
+  PreprocessParameters& preprocess = resolved.detect.preprocess;
   preprocess.has_region = true;
-  preprocess.region_from_camera = inverse(box.reference_from_box) * settings.grasp.robot_from_camera;
+  preprocess.region_from_camera = inverse(box.reference_from_box) * resolved.grasp.robot_from_camera;
   preprocess.region_half_size = box.half_size;
   return {};
 }
@@ -42,20 +64,17 @@ Status check_served(const PlcRequest& request, const PickSettings& settings) {
   if (request.save_snapshot && !settings.keeps_snapshots) {
     return {StatusCode::bad_request, "options asks for save_snapshot, but output.snapshots is not configured"};
   }
-  if (request.avoid_last_place) {
-    return {StatusCode::bad_request, "options asks for avoid_last_place, which is not served"};
-  }
   return {};
 }
 
 Status resolve_request(const PlcRequest& request, const PickSettings& settings, std::span<const Bank> banks,
-                       std::span<const Bank>& selected, DetectParameters& parameters) {
+                       ResolvedRequest& resolved) {
+  resolved.detect = settings.detect;
+  resolved.grasp = settings.grasp;
   if (Status served = check_served(request, settings); !served.ok()) return served;
-  if (request.has_flange_pose && !is_finite(request.robot_from_flange)) {
-    return {StatusCode::bad_request, "flange_pose in the request is no pose: check its numbers and the word order"};
-  }
-  if (Status known = select_banks(banks, request.part, selected); !known.ok()) return known;
-  return select_region(request, settings, parameters.preprocess);
+  if (Status placed = place_camera(request, settings, resolved); !placed.ok()) return placed;
+  if (Status known = select_banks(banks, request.part, resolved.banks); !known.ok()) return known;
+  return select_region(request, settings, resolved);
 }
 
 }  // namespace graspd

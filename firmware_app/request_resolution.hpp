@@ -4,19 +4,25 @@
 
 #include "core/bank/bank.hpp"
 #include "core/detect/parameters.hpp"
+#include "core/grasp/parameters.hpp"
 #include "firmware_app/pick_cycle.hpp"
 
 namespace graspd {
 
-/// Fails with bad_request when a register holds what has no meaning, or asks for what graspd does not serve or was
-/// not configured for.
+/// What detection and choice go by for one request.
+struct ResolvedRequest {
+  std::span<const Bank> banks;  ///< Of the part asked for; all of them for part 0.
+  DetectParameters detect;      ///< With the region.
+  GraspParameters grasp;        ///< With the camera where it is at the exposure.
+};
+
+/// Fails with bad_request when a register holds what has no meaning, or asks for what graspd was not configured for.
 [[nodiscard]] Status check_served(const PlcRequest& request, const PickSettings& settings);
 
-/// Turns what the PLC asked for into what the detection needs: the banks of the part asked for (all of them for
-/// part 0), and the region in `parameters`. Fails with bad_request, naming the register, when a number names nothing
-/// or is no number.
+/// Turns what the PLC asked for into what is needed to answer it. With a camera on the flange the request's pose says
+/// where it is, and all that is given in the robot's frame follows. Fails with bad_request, naming the register, when a
+/// number names nothing or is no number, or when the pose is needed and not given.
 [[nodiscard]] Status resolve_request(const PlcRequest& request, const PickSettings& settings,
-                                     std::span<const Bank> banks, std::span<const Bank>& selected,
-                                     DetectParameters& parameters);
+                                     std::span<const Bank> banks, ResolvedRequest& resolved);
 
 }  // namespace graspd

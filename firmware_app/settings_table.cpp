@@ -188,6 +188,46 @@ bool SettingsTable::read(std::string_view key, std::span<float> value, double sc
   return true;
 }
 
+void SettingsTable::read_rows(std::string_view key, std::vector<std::array<float, 6>>& rows, std::size_t most,
+                              double scale) {
+  const TomlValue* found = take(key, TomlValue::Kind::array);
+  if (found == nullptr) return;
+  rows.clear();
+  for (const TomlValue& row : found->elements) {
+    bool fine = row.elements.size() == 6 && rows.size() < most;
+    std::array<float, 6> numbers{};
+    for (std::size_t i = 0; fine && i < numbers.size(); ++i) {
+      const TomlValue& element = row.elements[i];
+      fine = (element.kind == TomlValue::Kind::integer || element.kind == TomlValue::Kind::real) &&
+             std::isfinite(element.real);
+      numbers[i] = static_cast<float>(element.real * scale);
+    }
+    if (!fine) {
+      complain(key, "must be a list of at most " + std::to_string(most) + " lists of 6 numbers");
+      return;
+    }
+    rows.push_back(numbers);
+  }
+}
+
+void SettingsTable::read_range(std::string_view key, float& least, float& most, double minimum, double maximum,
+                               double scale) {
+  if (element_count(key) == 0) {
+    read(key, most, minimum, maximum, scale);
+    least = most;
+    return;
+  }
+  std::array<float, 2> ends{};
+  if (!read(key, ends)) return;
+  if (!(ends[0] >= minimum && ends[0] <= ends[1] && ends[1] <= maximum)) {
+    complain(key,
+             "must be two numbers between " + printed(minimum) + " and " + printed(maximum) + ", the lesser one first");
+    return;
+  }
+  least = static_cast<float>(static_cast<double>(ends[0]) * scale);
+  most = static_cast<float>(static_cast<double>(ends[1]) * scale);
+}
+
 bool SettingsTable::read(std::string_view key, Vector3& value, double scale) {
   return read(key, std::span<float>(value.data(), 3), scale);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <span>
 #include <string>
@@ -56,6 +57,10 @@ class SettingsTable {
   void read(std::string_view key, float& value, double minimum, double maximum, double scale = 1);
   /// A list of exactly value.size() numbers; false when absent or wrong.
   bool read(std::string_view key, std::span<float> value, double scale = 1);
+  /// A list of at most `most` lists of six numbers.
+  void read_rows(std::string_view key, std::vector<std::array<float, 6>>& rows, std::size_t most, double scale = 1);
+  /// One number, or a list of two, the lesser first: both ends of a range. The limits are as in the file.
+  void read_range(std::string_view key, float& least, float& most, double minimum, double maximum, double scale = 1);
   /// Three numbers.
   bool read(std::string_view key, Vector3& value, double scale = 1);
   /// A path, resolved against the file's folder.

@@ -2,7 +2,8 @@
 
 install(TARGETS graspd RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES configs/graspd.service DESTINATION lib/systemd/system)
-install(FILES configs/register-map.md configs/log-codes.md configs/graspd.toml configs/part.toml LICENSE
+install(FILES configs/register-map.md configs/log-codes.md configs/graspd.toml configs/part.toml
+              configs/calibration.toml LICENSE
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # In /etc whatever the prefix, because the unit reads it there. A configuration that an integrator has written is kept;

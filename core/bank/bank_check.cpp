@@ -139,7 +139,13 @@ const char* shape_fault(const Bank& bank) {
     return "a symmetry is not a rigid transform";
   }
   for (const PartGrasp& grasp : bank.grasps) {
-    if (!is_rigid(grasp.part_from_tool) || !std::isfinite(grasp.opening)) return "a grasp is not a rigid transform";
+    if (!is_rigid(grasp.part_from_tool)) return "a grasp is not a rigid transform";
+    const auto kind = static_cast<std::uint32_t>(grasp.kind);
+    if (kind < static_cast<std::uint32_t>(GraspKind::parallel) ||
+        kind > static_cast<std::uint32_t>(GraspKind::magnetic) || !std::isfinite(grasp.opening) ||
+        !std::isfinite(grasp.least_opening) || !std::isfinite(grasp.held_width)) {
+      return "a grasp is of no known kind or has an impossible width";
+    }
   }
   return nullptr;
 }

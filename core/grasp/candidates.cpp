@@ -53,15 +53,14 @@ RigidTransform first_turn(const RigidTransform& robot_from_part, const PartGrasp
 }
 
 /// The candidate for one symmetric pose of the part, with the figures that need no frame.
-GraspCandidate candidate_at(const RigidTransform& robot_from_part, const PartGrasp& grasp, const GraspTarget& target,
-                            const Vector3& down, const RigidTransform& preferred, const GraspParameters& parameters) {
+GraspCandidate candidate_at(const RigidTransform& robot_from_part, const PartGrasp& grasp, const Tool& tool,
+                            const GraspTarget& target, float cos_tilt, const RigidTransform& preferred,
+                            const GraspParameters& parameters) {
   GraspCandidate candidate;
   candidate.robot_from_part = robot_from_part;
-  candidate.robot_from_tool = nearest_symmetric(robot_from_part * grasp.part_from_tool, preferred,
-                                                tool_symmetry(parameters.gripper, grasp.opening));
-  const Matrix3& tool = candidate.robot_from_tool.rotation;
-  candidate.tilt = std::acos(std::clamp(tool.col(2).dot(down), -1.0F, 1.0F));
-  candidate.turn = rotation_angle(preferred.rotation.transpose() * tool);
+  candidate.robot_from_tool = nearest_symmetric(robot_from_part * grasp.part_from_tool, preferred, tool_symmetry(tool));
+  candidate.tilt = std::acos(std::clamp(cos_tilt, -1.0F, 1.0F));
+  candidate.turn = rotation_angle(preferred.rotation.transpose() * candidate.robot_from_tool.rotation);
   const float most = parameters.collision.clearance_range;
   candidate.value = grasp_value({grasp.priority, target.score, candidate.tilt, most, target.drop, candidate.turn},
                                 parameters.weights, most);
@@ -69,12 +68,14 @@ GraspCandidate candidate_at(const RigidTransform& robot_from_part, const PartGra
 }
 
 /// The first test that fails; `none` when it passes those that need no frame.
-GraspRejection test_pose(const GraspCandidate& candidate, const GraspParameters& parameters) {
-  if (candidate.tilt > parameters.maximum_tilt) return GraspRejection::tilt;
+GraspRejection test_place(const GraspCandidate& candidate, const GraspParameters& parameters,
+                          std::span<const AvoidedPlace> avoided) {
   const RigidTransform approach = approach_of(candidate.robot_from_tool, parameters.approach_distance);
   const bool reached = within_reach(parameters.reach, candidate.robot_from_tool) &&
                        within_reach(parameters.reach, approach) && std::isfinite(candidate.value);
-  return reached ? GraspRejection::none : GraspRejection::reach;
+  if (!reached) return GraspRejection::reach;
+  const bool failed_before = is_avoided(avoided, candidate.robot_from_tool.translation, parameters.avoid.radius);
+  return failed_before ? GraspRejection::avoided : GraspRejection::none;
 }
 
 }  // namespace
@@ -106,15 +107,29 @@ RigidTransform approach_of(const RigidTransform& robot_from_tool, float distance
 }
 
 GraspRejection furthest(GraspRejection a, GraspRejection b) {
-  constexpr std::array order{GraspRejection::no_grasp, GraspRejection::opening,   GraspRejection::tilt,
-                             GraspRejection::reach,    GraspRejection::collision, GraspRejection::none};
+  constexpr std::array order{GraspRejection::no_grasp,  GraspRejection::tool,      GraspRejection::opening,
+                             GraspRejection::tilt,      GraspRejection::reach,     GraspRejection::avoided,
+                             GraspRejection::wall,      GraspRejection::collision, GraspRejection::unseen,
+                             GraspRejection::neighbour, GraspRejection::closing,   GraspRejection::retreat,
+                             GraspRejection::none};
   return std::find(order.begin(), order.end(), a) < std::find(order.begin(), order.end(), b) ? b : a;
 }
 
+std::uint32_t tool_for(const ToolSet& tools, const PartGrasp& grasp, GraspRejection& reason) {
+  reason = GraspRejection::tool;
+  for (std::uint32_t i = 0; i < tools.count; ++i) {
+    if (!is_suited(tools.tools[i], grasp)) continue;
+    if (openings_of(tools.tools[i], grasp).count > 0) return i;
+    reason = GraspRejection::opening;
+  }
+  return tools.count;
+}
+
 GraspRejection grasp_candidates(const Bank& bank, const GraspTarget& target, const GraspParameters& parameters,
-                                FixedVector<GraspCandidate>& candidates) {
+                                std::span<const AvoidedPlace> avoided, FixedVector<GraspCandidate>& candidates) {
   const Vector3 down = -up_direction(parameters);
   const RigidTransform preferred{preferred_orientation(parameters), Vector3::Zero()};
+  const float least_cosine = std::cos(parameters.maximum_tilt);
   const bool continuous = bank.part->symmetry_continuous != 0;
   const std::uint32_t steps = continuous ? std::max<std::uint32_t>(parameters.symmetry_steps, 1) : 1;
   const float step_angle = 2.0F * std::numbers::pi_v<float> / static_cast<float>(steps);
@@ -123,8 +138,10 @@ GraspRejection grasp_candidates(const Bank& bank, const GraspTarget& target, con
 
   for (std::uint32_t g = 0; g < bank.grasps.size(); ++g) {
     const PartGrasp& grasp = bank.grasps[g];
-    if (!can_open(parameters.gripper, grasp.opening)) {
-      reason = furthest(reason, GraspRejection::opening);
+    GraspRejection rejection = GraspRejection::none;
+    const std::uint32_t tool = tool_for(parameters.tools, grasp, rejection);
+    if (tool == parameters.tools.count) {
+      reason = furthest(reason, rejection);
       continue;
     }
     for (std::uint32_t d = 0; d < bank.symmetry_discrete.size(); ++d) {
@@ -134,10 +151,17 @@ GraspRejection grasp_candidates(const Bank& bank, const GraspTarget& target, con
       for (std::uint32_t step = 0; step < steps; ++step) {
         const RigidTransform turned =
             step == 0 ? first : first * turn_about(bank.part->symmetry_axis, step_angle * static_cast<float>(step));
-        GraspCandidate candidate = candidate_at(turned, grasp, target, down, preferred, parameters);
+        const float cosine = down.dot(turned.rotation * grasp.part_from_tool.rotation.col(2));
+        if (cosine < least_cosine) {
+          reason = furthest(reason, GraspRejection::tilt);
+          continue;
+        }
+        GraspCandidate candidate =
+            candidate_at(turned, grasp, parameters.tools.tools[tool], target, cosine, preferred, parameters);
         candidate.grasp = g;
+        candidate.tool = tool;
         candidate.member = d * steps + step;
-        const GraspRejection rejection = test_pose(candidate, parameters);
+        rejection = test_place(candidate, parameters, avoided);
         reason = furthest(reason, rejection);
         if (rejection != GraspRejection::none) continue;
         const bool known = std::any_of(candidates.begin(), candidates.end(), [&](const GraspCandidate& other) {

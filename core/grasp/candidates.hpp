@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/bank/bank.hpp"
+#include "core/grasp/avoid_list.hpp"
 #include "core/grasp/parameters.hpp"
 #include "core/grasp/pick.hpp"
 #include "core/memory/fixed_vector.hpp"
@@ -17,6 +18,7 @@ struct GraspCandidate {
   float turn = 0;                  ///< Radians from the preferred orientation.
   float value = 0;                 ///< Its rank if nothing were near: no clearance can lift it above.
   std::uint32_t grasp = 0;         ///< Index into Bank::grasps.
+  std::uint32_t tool = 0;          ///< Index into ToolSet::tools.
   std::uint32_t member = 0;        ///< Number of the symmetric pose.
 };
 
@@ -43,13 +45,17 @@ struct GraspTarget {
 /// The one of two reasons whose test comes later (see GraspRejection); `none` is the latest.
 [[nodiscard]] GraspRejection furthest(GraspRejection a, GraspRejection b);
 
+/// The tool for a grasp: the first of the set that holds parts in this way and can open wide enough. The set's size
+/// when there is none; `reason` then says why.
+[[nodiscard]] std::uint32_t tool_for(const ToolSet& tools, const PartGrasp& grasp, GraspRejection& reason);
+
 /// Fills `candidates` with the grasps of an instance, highest value first: each grasp of the part at each of the
 /// part's discrete symmetric poses; with continuous symmetry at GraspParameters::symmetry_steps even turns, the first
 /// of them where the tool leans least; and with the turn of the tool (tool_symmetry) nearest to the preferred
-/// orientation. Equal grasps are given once. Opening, tilt and reach are tested here. When more are left than fit,
-/// those of lowest value are dropped and counted. Returns the reason of the grasp that came furthest; `none` when any
-/// passed.
+/// orientation. Equal grasps are given once. Tool, opening, tilt, reach and `avoided` places are tested here. When more
+/// are left than fit, those of lowest value are dropped and counted. Returns the reason of the grasp that came
+/// furthest; `none` when any passed.
 GraspRejection grasp_candidates(const Bank& bank, const GraspTarget& target, const GraspParameters& parameters,
-                                FixedVector<GraspCandidate>& candidates);
+                                std::span<const AvoidedPlace> avoided, FixedVector<GraspCandidate>& candidates);
 
 }  // namespace graspd

@@ -2,20 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
+#include <cstddef>
 
 namespace graspd {
 namespace {
-
-/// Pixels from first to last, both included; empty when last is before first.
-struct PixelRectangle {
-  int first_u = 0;
-  int last_u = -1;
-  int first_v = 0;
-  int last_v = -1;
-};
 
 /// The smallest of the distances seen, kept sorted.
 class NearestDistances {
@@ -36,84 +26,159 @@ class NearestDistances {
   std::size_t count_;
 };
 
-/// Where a box (tool frame) lies in the frame: the pixels that can show a point of it, and its depths.
-struct Shadow {
-  PixelRectangle pixels;
-  float nearest = 0;
-  float furthest = 0;
+/// The rays of a map's cells in the tool's frame, each a metre deep.
+struct Rays {
+  explicit Rays(const Camera& camera_, const RigidTransform& tool_from_camera_)
+      : camera(camera_), tool_from_camera(tool_from_camera_), step(tool_from_camera.rotation.col(0) / camera.fx) {}
+  [[nodiscard]] Vector3 row(int v) const {
+    return tool_from_camera.rotation * camera.point(0.0F, static_cast<float>(v), 1.0F);
+  }
+  [[nodiscard]] Vector3 at(const Vector3& row_ray, int u) const { return row_ray + static_cast<float>(u) * step; }
+
+  const Camera& camera;
+  const RigidTransform& tool_from_camera;
+  Vector3 step;
 };
 
-Shadow shadow_of(const Camera& camera, const RigidTransform& camera_from_tool, const Box& box) {
-  constexpr float nearest_projected = 0.01F;
-  Eigen::Vector2f low = Eigen::Vector2f::Constant(std::numeric_limits<float>::max());
-  Eigen::Vector2f high = -low;
-  Shadow shadow{{}, std::numeric_limits<float>::max(), -std::numeric_limits<float>::max()};
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vector3 local((corner & 1) != 0 ? box.upper.x() : box.lower.x(),
-                        (corner & 2) != 0 ? box.upper.y() : box.lower.y(),
-                        (corner & 4) != 0 ? box.upper.z() : box.lower.z());
-    const Vector3 point = camera_from_tool * local;
-    shadow.nearest = std::min(shadow.nearest, point.z());
-    shadow.furthest = std::max(shadow.furthest, point.z());
-    const Eigen::Vector2f pixel = camera.project(point);
-    low = low.cwiseMin(pixel);
-    high = high.cwiseMax(pixel);
-  }
-  if (shadow.furthest < nearest_projected) return shadow;
-  const auto right = static_cast<float>(camera.width - 1);
-  const auto bottom = static_cast<float>(camera.height - 1);
-  const bool projected = shadow.nearest >= nearest_projected && low.allFinite() && high.allFinite();
-  if (!projected) {
-    shadow.pixels = {0, camera.width - 1, 0, camera.height - 1};
-  } else {
-    shadow.pixels = {static_cast<int>(std::clamp(std::floor(low.x()), 0.0F, right + 1.0F)),
-                     static_cast<int>(std::clamp(std::ceil(high.x()), -1.0F, right)),
-                     static_cast<int>(std::clamp(std::floor(low.y()), 0.0F, bottom + 1.0F)),
-                     static_cast<int>(std::clamp(std::ceil(high.y()), -1.0F, bottom))};
-  }
-  return shadow;
+/// Whether the bounds of a tile (camera frame) may reach into a box (tool frame).
+bool tile_reaches(const Box& tile, const RigidTransform& tool_from_camera, const Matrix3& size_in_tool,
+                  const Box& box) {
+  if (tile.lower.z() > tile.upper.z()) return false;
+  const Vector3 centre = tool_from_camera * tile.centre();
+  const Vector3 half = size_in_tool * tile.half_size();
+  return ((centre + half).array() >= box.lower.array()).all() && ((centre - half).array() <= box.upper.array()).all();
 }
 
-/// Metres between what one piece of the gripper sweeps and what was measured.
-float piece_clearance(const DepthFrame& frame, const RigidTransform& tool_from_camera, const Shadow& shadow,
-                      const Box& swept, const Box& held, bool touches_part, const CollisionParameters& parameters) {
-  const Camera& camera = frame.camera;
-  const float pixels_apart = parameters.sample_spacing * std::min(camera.fx, camera.fy) / shadow.furthest;
-  const int stride = std::max(1, static_cast<int>(std::min(pixels_apart, static_cast<float>(camera.width))));
-  const Vector3 step = tool_from_camera.rotation.col(0) / camera.fx;
-
-  NearestDistances nearest(parameters.minimum_points, parameters.clearance_range);
-  for (int v = shadow.pixels.first_v; v <= shadow.pixels.last_v; v += stride) {
-    const Vector3 row_ray = tool_from_camera.rotation * camera.point(0.0F, static_cast<float>(v), 1.0F);
-    const float* const row = frame.depth.data() + camera.index(0, v);
-    for (int u = shadow.pixels.first_u; u <= shadow.pixels.last_u; u += stride) {
-      const float depth = row[u];
-      if (!(depth > 0.0F && depth >= shadow.nearest && depth <= shadow.furthest)) continue;
-      const Vector3 point = depth * (row_ray + static_cast<float>(u) * step) + tool_from_camera.translation;
-      if (touches_part && distance_to_box(point, held) <= 0.0F) continue;
-      nearest.add(distance_to_box(point, swept));
+/// Calls `visit` with each tile's first and last cell, for tiles in `range` that `wanted` asks for, until it returns
+/// true.
+template <class Wanted, class Visit>
+void visit_tiles(const CloudMap& map, const CellRange& range, const Wanted& wanted, const Visit& visit) {
+  if (range.last_u < range.first_u || range.last_v < range.first_v) return;
+  constexpr int size = CloudMap::tile_size;
+  for (int row = range.first_v / size; row <= range.last_v / size; ++row) {
+    for (int column = range.first_u / size; column <= range.last_u / size; ++column) {
+      if (!wanted(map.tiles[static_cast<std::size_t>(row) * static_cast<std::size_t>(map.tile_columns) +
+                            static_cast<std::size_t>(column)])) {
+        continue;
+      }
+      const CellRange cells{std::max(range.first_u, column * size),
+                            std::min(range.last_u, column * size + size - 1),
+                            std::max(range.first_v, row * size),
+                            std::min(range.last_v, row * size + size - 1),
+                            range.nearest,
+                            range.furthest};
+      if (visit(cells)) return;
     }
-    if (nearest.last() <= parameters.minimum_clearance) break;
   }
-  return nearest.last();
+}
+
+/// Calls `visit` with every measured point (tool frame) that may lie in `box`, until it returns true.
+template <class Visit>
+void visit_points(const CloudMap& map, const RigidTransform& camera_from_tool, const RigidTransform& tool_from_camera,
+                  const Box& box, const Visit& visit) {
+  const CellRange range = cells_of(map.camera, camera_from_tool, box);
+  const Rays rays(map.camera, tool_from_camera);
+  const Matrix3 size_in_tool = tool_from_camera.rotation.cwiseAbs();
+  const auto wanted = [&](const Box& tile) { return tile_reaches(tile, tool_from_camera, size_in_tool, box); };
+  visit_tiles(map, range, wanted, [&](const CellRange& cells) {
+    for (int v = cells.first_v; v <= cells.last_v; ++v) {
+      const Vector3 row_ray = rays.row(v);
+      const float* const row = map.depth.data() + map.camera.index(0, v);
+      for (int u = cells.first_u; u <= cells.last_u; ++u) {
+        const float depth = row[u];
+        if (!(depth > 0.0F && depth >= cells.nearest && depth <= cells.furthest)) continue;
+        if (visit(Vector3(depth * rays.at(row_ray, u) + tool_from_camera.translation))) return true;
+      }
+    }
+    return false;
+  });
+}
+
+bool is_part(const Vector3& point, const GripperPiece& piece, const Gripper& gripper, const HeldPart& part) {
+  return piece.touches_part && gripper.held.contains(point) && part.bounds.contains(part.part_from_tool * point);
+}
+
+/// The volume behind measured surfaces that a box covers, cubic metres.
+float hidden_volume(const CloudMap& map, const RigidTransform& camera_from_tool, const RigidTransform& tool_from_camera,
+                    const Box& box) {
+  const CellRange range = cells_of(map.camera, camera_from_tool, box);
+  const Rays rays(map.camera, tool_from_camera);
+  const float cell = 1.0F / (map.camera.fx * map.camera.fy);
+  const Vector3 to_lower = box.lower - tool_from_camera.translation;
+  const Vector3 to_upper = box.upper - tool_from_camera.translation;
+  float volume = 0.0F;
+  const auto wanted = [&](const Box& tile) { return tile.lower.z() < range.furthest; };
+  visit_tiles(map, range, wanted, [&](const CellRange& cells) {
+    for (int v = cells.first_v; v <= cells.last_v; ++v) {
+      const Vector3 row_ray = rays.row(v);
+      const float* const row = map.depth.data() + map.camera.index(0, v);
+      for (int u = cells.first_u; u <= cells.last_u; ++u) {
+        const float depth = row[u];
+        if (!(depth > 0.0F && depth < cells.furthest)) continue;
+        const Vector3 inverse_ray = rays.at(row_ray, u).cwiseInverse();
+        const Vector3 a = to_lower.cwiseProduct(inverse_ray);
+        const Vector3 b = to_upper.cwiseProduct(inverse_ray);
+        const float enter = std::max(a.cwiseMin(b).maxCoeff(), depth);
+        const float leave = a.cwiseMax(b).minCoeff();
+        if (!(leave > enter)) continue;
+        const float middle = 0.5F * (enter + leave);
+        volume += (leave - enter) * middle * middle * cell;
+      }
+    }
+    return false;
+  });
+  return volume;
 }
 
 }  // namespace
 
-float approach_clearance(const DepthFrame& frame, const RigidTransform& camera_from_tool, const Gripper& gripper,
-                         float approach_distance, const CollisionParameters& parameters) {
-  const RigidTransform tool_from_camera = inverse(camera_from_tool);
-  const Vector3 range = Vector3::Constant(parameters.clearance_range);
+bool sweep_collides(const CloudMap& map, const Sweep& sweep, const HeldPart& part,
+                    const CollisionParameters& parameters) {
+  const RigidTransform tool_from_camera = inverse(sweep.camera_from_tool);
+  for (const GripperPiece& piece : sweep.gripper->all()) {
+    const Box box = grown(piece.box, parameters.minimum_clearance);
+    const Box bounds = swept_bounds(box, sweep.motion);
+    std::uint32_t hits = 0;
+    visit_points(map, sweep.camera_from_tool, tool_from_camera, bounds, [&](const Vector3& point) {
+      if (!bounds.contains(point) || !sweeps_over(box, sweep.motion, point)) return false;
+      if (is_part(point, piece, *sweep.gripper, part)) return false;
+      return ++hits >= parameters.minimum_points;
+    });
+    if (hits >= parameters.minimum_points) return true;
+  }
+  return false;
+}
+
+float sweep_clearance(const CloudMap& map, const Sweep& sweep, const HeldPart& part,
+                      const CollisionParameters& parameters) {
+  const RigidTransform tool_from_camera = inverse(sweep.camera_from_tool);
   float clearance = parameters.clearance_range;
-  for (const GripperBox& piece : gripper.boxes()) {
-    Box swept = piece.box;
-    swept.lower.z() -= approach_distance;
-    const Shadow shadow = shadow_of(frame.camera, camera_from_tool, {swept.lower - range, swept.upper + range});
-    clearance = std::min(clearance, piece_clearance(frame, tool_from_camera, shadow, swept, gripper.held,
-                                                    piece.touches_part, parameters));
+  for (const GripperPiece& piece : sweep.gripper->all()) {
+    const Box swept = swept_bounds(piece.box, sweep.motion);
+    NearestDistances nearest(parameters.minimum_points, clearance);
+    visit_points(map, sweep.camera_from_tool, tool_from_camera, grown(swept, clearance), [&](const Vector3& point) {
+      const float distance = distance_to_box(point, swept);
+      if (distance >= nearest.last() || is_part(point, piece, *sweep.gripper, part)) return false;
+      nearest.add(distance);
+      return nearest.last() <= parameters.minimum_clearance;
+    });
+    clearance = std::min(clearance, nearest.last());
     if (clearance <= parameters.minimum_clearance) break;
   }
   return clearance;
+}
+
+float unseen_share(const CloudMap& map, const Sweep& sweep) {
+  const RigidTransform tool_from_camera = inverse(sweep.camera_from_tool);
+  float share = 0.0F;
+  for (const GripperPiece& piece : sweep.gripper->all()) {
+    const float own = (piece.box.upper - piece.box.lower).prod();
+    if (!(own > 0.0F)) continue;
+    share = std::max(
+        share,
+        hidden_volume(map, sweep.camera_from_tool, tool_from_camera, swept_bounds(piece.box, sweep.motion)) / own);
+  }
+  return share;
 }
 
 }  // namespace graspd

@@ -1,19 +1,38 @@
 #pragma once
 
-#include "core/geometry/depth_frame.hpp"
-#include "core/grasp/gripper.hpp"
+#include "core/grasp/cloud_map.hpp"
 #include "core/grasp/parameters.hpp"
 
 namespace graspd {
 
-/// Metres between the open gripper and what was measured, anywhere on its straight way in: `approach_distance`
-/// along z to `camera_from_tool`. A box that moves along its own edge sweeps a box, so the way is tested as a whole
-/// and not in steps. The distance of a box is that of the CollisionParameters::minimum_points-th nearest measured
-/// point, the clearance is the least of the boxes' and at most clearance_range. Points in Gripper::held are the part
-/// itself to the boxes that touch it. Unmeasured pixels say nothing. At or below minimum_clearance the search ends
-/// early: the figure is then an upper bound.
-[[nodiscard]] float approach_clearance(const DepthFrame& frame, const RigidTransform& camera_from_tool,
-                                       const Gripper& gripper, float approach_distance,
-                                       const CollisionParameters& parameters);
+/// The part that the gripper is after: what was measured inside its bounds may be the part itself.
+struct HeldPart {
+  RigidTransform part_from_tool;
+  Box bounds;  ///< Part frame.
+};
+
+/// A gripper that moves straight: in its tool frame, by `motion` metres from where it is.
+struct Sweep {
+  RigidTransform camera_from_tool;
+  const Gripper* gripper = nullptr;
+  Vector3 motion = Vector3::Zero();
+};
+
+/// The measured points that a piece passes over, or comes as near to as minimum_clearance, make an obstacle when
+/// there are minimum_points of them. Points inside both Gripper::held and HeldPart::bounds are the part itself to the
+/// pieces that touch it. Unmeasured pixels say nothing.
+[[nodiscard]] bool sweep_collides(const CloudMap& map, const Sweep& sweep, const HeldPart& part,
+                                  const CollisionParameters& parameters);
+
+/// Metres between the gripper and what was measured, anywhere on a way along z: a box that moves along its own edge
+/// sweeps a box. The distance of a piece is that of the minimum_points-th nearest point, the clearance is the least of
+/// the pieces' and at most clearance_range. At or below minimum_clearance the search ends early: the figure is then
+/// an upper bound.
+[[nodiscard]] float sweep_clearance(const CloudMap& map, const Sweep& sweep, const HeldPart& part,
+                                    const CollisionParameters& parameters);
+
+/// How much of its own volume a piece of the gripper moves through behind measured surfaces, where nobody knows what
+/// is there, on a way along z: the greatest such ratio of all pieces. Cells that were not measured count as seen.
+[[nodiscard]] float unseen_share(const CloudMap& map, const Sweep& sweep);
 
 }  // namespace graspd

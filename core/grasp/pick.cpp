@@ -16,6 +16,20 @@ const char* grasp_rejection_name(GraspRejection rejection) {
       return "collision";
     case GraspRejection::opening:
       return "opening";
+    case GraspRejection::tool:
+      return "tool";
+    case GraspRejection::avoided:
+      return "avoided";
+    case GraspRejection::wall:
+      return "wall";
+    case GraspRejection::unseen:
+      return "unseen";
+    case GraspRejection::neighbour:
+      return "neighbour";
+    case GraspRejection::closing:
+      return "closing";
+    case GraspRejection::retreat:
+      return "retreat";
   }
   return "unknown";
 }

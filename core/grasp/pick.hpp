@@ -9,17 +9,25 @@
 
 namespace graspd {
 
-/// Why an instance was found but not picked. A grasp is put to the tests in the order of `opening`,
-/// `tilt`, `reach`, `collision`; an instance has the reason of its grasp that came furthest.
+/// Why an instance was found but not picked. A grasp is put to the tests in the order of `tool`, `opening`, `tilt`,
+/// `reach`, `avoided`, `wall`, `collision`, `unseen`, `neighbour`, `closing`, `retreat`; an instance has the reason of
+/// its grasp that came furthest.
 enum class GraspRejection : std::uint8_t {
   none,
   no_grasp,   ///< The part file lists no grasp: graspd invents none, since it cannot know where a part may be held.
   tilt,       ///< The tool would lean further from the vertical than allowed.
   reach,      ///< The pick or the approach pose lies outside the robot's reach.
   collision,  ///< On its way in the gripper would come too near to something that the sensor measured.
-  opening,    ///< The gripper cannot open that wide, or the cell has no tool of the kind that the grasp needs.
+  opening,    ///< The gripper cannot open that wide.
+  tool,       ///< The cell has no tool of the kind, or of the number, that the grasp needs.
+  avoided,    ///< A pick at this place failed not long ago.
+  wall,       ///< On its way in the gripper would touch the bin.
+  unseen,     ///< The gripper would reach too far behind measured surfaces, where nobody knows what is there.
+  neighbour,  ///< On its way in the gripper would touch another instance, where the sensor did not see it.
+  closing,    ///< Closing, the jaws would catch something that is not the part.
+  retreat,    ///< On the way out the gripper would touch something, or the held part the bin.
 };
-inline constexpr std::size_t grasp_rejection_count = 6;
+inline constexpr std::size_t grasp_rejection_count = 13;
 
 /// A name for logs and tables, in lower case.
 [[nodiscard]] const char* grasp_rejection_name(GraspRejection rejection);
@@ -36,11 +44,23 @@ struct Pick {
   float value = 0;                     ///< What picks are ordered by: core/grasp/ranking.hpp.
   std::uint32_t instance = 0;          ///< Index into Detections::instances.
   std::uint32_t grasp = 0;             ///< PartGrasp::number.
+  std::uint32_t tool = 0;              ///< Tool::number.
+};
+
+/// A grasp that was tried and rejected, for pictures and reports.
+struct RejectedGrasp {
+  RigidTransform robot_from_tool;
+  float opening = 0;
+  std::uint32_t instance = 0;
+  std::uint32_t grasp = 0;  ///< PartGrasp::number.
+  std::uint32_t tool = 0;   ///< Tool::number.
+  GraspRejection reason = GraspRejection::none;
 };
 
 /// What was cut; a result with a flag is right, but a better pick may have been left out.
 enum PickFlag : std::uint32_t {
-  flag_grasps_cut = 1U << 0U,  ///< An instance had more grasps than the workspace holds: those ranked last went.
+  flag_grasps_cut = 1U << 0U,  ///< An instance had more grasps than the workspace holds, or than its share of the
+                               ///< checks: those ranked last went.
   flag_picks_cut = 1U << 1U,   ///< More instances than the workspace holds: those with the lowest scores went.
 };
 
@@ -48,9 +68,12 @@ enum PickFlag : std::uint32_t {
 struct PickResult {
   bool found = false;
   Pick best;                                ///< The first of `picks`; meaningful only when `found`.
-  std::span<const Pick> picks;              ///< The best pick of each pickable instance, highest value first.
+  std::span<const Pick> picks;              ///< The best pick of each pickable instance, in the order to pick them.
   std::span<const GraspRejection> reasons;  ///< One for each instance; `none` for the pickable ones.
+  std::span<const RejectedGrasp> rejected;  ///< Grasps that failed when they were looked up in the frame; as many as
+                                            ///< the workspace holds.
   std::uint32_t pickable = 0;               ///< Instances with a pick.
+  std::uint32_t checks = 0;                 ///< Grasps that were looked up in the frame.
   std::array<std::uint32_t, grasp_rejection_count> rejections{};  ///< Instances by reason.
   GraspRejection main_reason =
       GraspRejection::none;  ///< Of most instances that are not pickable; `none`: there are none.

@@ -1,8 +1,9 @@
 #include "core/grasp/planner.hpp"
 
 #include <algorithm>
+#include <limits>
 
-#include "core/grasp/collision.hpp"
+#include "core/grasp/checks.hpp"
 #include "core/grasp/ranking.hpp"
 
 namespace graspd {
@@ -14,41 +15,64 @@ float height_of(const Instance& instance, std::span<const Bank> banks, const Gra
   return up.dot(parameters.robot_from_camera * (instance.camera_from_part * banks[instance.bank].part->centre));
 }
 
-Pick pick_of(const GraspCandidate& candidate, const PartGrasp& grasp, const GraspTarget& target, float clearance,
-             const GraspParameters& parameters) {
+Pick pick_of(const GraspCandidate& candidate, const GraspCheck& check, const PartGrasp& grasp,
+             const GraspTarget& target, const GraspParameters& parameters) {
   Pick pick;
   pick.robot_from_tool = candidate.robot_from_tool;
   pick.robot_from_approach = approach_of(candidate.robot_from_tool, parameters.approach_distance);
   pick.robot_from_part = candidate.robot_from_part;
-  pick.opening = grasp.opening;
+  pick.opening = check.opening;
   pick.score = target.score;
   pick.tilt = candidate.tilt;
-  pick.clearance = clearance;
-  pick.value = grasp_value({grasp.priority, target.score, candidate.tilt, clearance, target.drop, candidate.turn},
+  pick.clearance = check.clearance;
+  pick.value = grasp_value({grasp.priority, target.score, candidate.tilt, check.clearance, target.drop, candidate.turn},
                            parameters.weights, parameters.collision.clearance_range);
   pick.grasp = grasp.number;
+  pick.tool = parameters.tools.tools[candidate.tool].number;
   return pick;
 }
 
-/// The best of the candidates that does not collide. They come in the order of the value that they would have with
-/// all the clearance that counts, so the search ends at the first that could not be better even so.
-GraspRejection best_free(const DepthFrame& frame, const Bank& bank, const GraspTarget& target,
-                         const GraspParameters& parameters, std::span<const GraspCandidate> candidates, Pick& best) {
-  const RigidTransform camera_from_robot = inverse(parameters.robot_from_camera);
-  GraspRejection reason = GraspRejection::collision;
-  for (const GraspCandidate& candidate : candidates) {
-    if (reason == GraspRejection::none && candidate.value <= best.value) break;
+/// The best grasp of one instance, and what it took to find it.
+struct Search {
+  GraspRejection reason = GraspRejection::none;
+  Pick best;
+  std::uint32_t checks = 0;
+  bool cut = false;  ///< It had candidates left when its share of the checks was used up.
+};
+
+/// The best of the workspace's candidates that passes all tests, with `share` checks at most. They come in the order of
+/// the value that they would have with all the clearance that counts, so the search ends at the first that could not be
+/// better even so.
+Search best_free(const GraspSurroundings& around, std::size_t instance, const GraspTarget& target,
+                 const GraspParameters& parameters, std::uint32_t share, GraspWorkspace& workspace) {
+  const Bank& bank = around.banks[around.instances[instance].bank];
+  Search search;
+  bool found = false;
+  for (const GraspCandidate& candidate : workspace.candidates) {
+    if (found && candidate.value <= search.best.value) break;
+    if (search.checks == share) {
+      search.cut = true;
+      break;
+    }
+    ++search.checks;
     const PartGrasp& grasp = bank.grasps[candidate.grasp];
-    const float clearance = approach_clearance(frame, camera_from_robot * candidate.robot_from_tool,
-                                               gripper_at(parameters.gripper, grasp.opening),
-                                               parameters.approach_distance, parameters.collision);
-    if (clearance <= parameters.collision.minimum_clearance) continue;
-    const Pick pick = pick_of(candidate, grasp, target, clearance, parameters);
-    if (reason == GraspRejection::none && pick.value <= best.value) continue;
-    best = pick;
-    reason = GraspRejection::none;
+    const GraspCheck check = check_grasp(around, instance, candidate, parameters);
+    if (check.reason != GraspRejection::none) {
+      if (!found) search.reason = furthest(search.checks == 1 ? check.reason : search.reason, check.reason);
+      static_cast<void>(
+          workspace.rejected.push_back({candidate.robot_from_tool, check.opening, static_cast<std::uint32_t>(instance),
+                                        grasp.number, parameters.tools.tools[candidate.tool].number, check.reason}));
+      continue;
+    }
+    const Pick pick = pick_of(candidate, check, grasp, target, parameters);
+    if (!found || pick.value > search.best.value) search.best = pick;
+    found = true;
+    search.reason = GraspRejection::none;
   }
-  return reason;
+  // Without a share nothing is known, and a grasp that was not looked up is not free.
+  if (!found && search.checks == 0) search.reason = GraspRejection::collision;
+  search.best.instance = static_cast<std::uint32_t>(instance);
+  return search;
 }
 
 /// The reason of most instances; of equally frequent ones that which is declared first.
@@ -60,43 +84,70 @@ GraspRejection main_reason(const PickResult& result) {
   return static_cast<GraspRejection>(most);
 }
 
+/// The depth at which cells lie as far apart as asked for: that of the farthest instance.
+float reference_depth(std::span<const Instance> instances) {
+  float depth = 0.0F;
+  for (const Instance& instance : instances) depth = std::max(depth, instance.camera_from_part.translation.z());
+  return depth;
+}
+
 }  // namespace
 
 PickResult choose_pick(const DepthFrame& frame, const Detections& detections, std::span<const Bank> banks,
-                       const GraspParameters& parameters, GraspWorkspace& workspace) {
+                       const GraspParameters& parameters, GraspWorkspace& workspace,
+                       std::span<const AvoidedPlace> avoided) {
   PickResult result;
   workspace.picks.clear();
   workspace.reasons.clear();
+  workspace.ranks.clear();
+  workspace.rejected.clear();
   const std::size_t count = std::min(detections.instances.size(), workspace.picks.capacity());
   if (count < detections.instances.size()) result.flags |= flag_picks_cut;
+  const std::span<const Instance> instances = detections.instances.first(count);
+  if (count > 0) {
+    fill_cloud_map(frame, parameters.collision.sample_spacing, reference_depth(instances), workspace.cloud);
+  }
 
   const Vector3 up = up_direction(parameters);
+  const RigidTransform camera_from_robot = inverse(parameters.robot_from_camera);
+  // Those that the workspace cuts are in the way all the same.
+  const GraspSurroundings around{&workspace.cloud,     bin_walls(parameters.bin, up, camera_from_robot),
+                                 detections.instances, banks,
+                                 camera_from_robot,    camera_from_robot.rotation * up};
   float highest = -std::numeric_limits<float>::max();
-  for (const Instance& instance : detections.instances.first(count)) {
+  for (const Instance& instance : instances) {
     highest = std::max(highest, height_of(instance, banks, parameters, up));
   }
+  std::uint32_t checks_left = workspace.capacity.checks;
   for (std::size_t i = 0; i < count; ++i) {
-    const Instance& instance = detections.instances[i];
-    const Bank& bank = banks[instance.bank];
+    const Instance& instance = instances[i];
     const GraspTarget target{parameters.robot_from_camera * instance.camera_from_part, instance.score,
                              highest - height_of(instance, banks, parameters, up)};
-    GraspRejection reason = grasp_candidates(bank, target, parameters, workspace.candidates);
+    workspace.ranks.push_back(order_rank(instances, banks, i, target.drop, parameters));
+    Search search;
+    search.reason = grasp_candidates(banks[instance.bank], target, parameters, avoided, workspace.candidates);
     if (workspace.candidates.dropped() > 0) result.flags |= flag_grasps_cut;
-    if (reason == GraspRejection::none) {
-      Pick pick;
-      reason = best_free(frame, bank, target, parameters, workspace.candidates.span(), pick);
-      pick.instance = static_cast<std::uint32_t>(i);
-      if (reason == GraspRejection::none) workspace.picks.push_back(pick);
+    if (search.reason == GraspRejection::none) {
+      const auto share = static_cast<std::uint32_t>(checks_left / (count - i));
+      search = best_free(around, i, target, parameters, share, workspace);
+      checks_left -= search.checks;
+      result.checks += search.checks;
+      if (search.cut) result.flags |= flag_grasps_cut;
+      if (search.reason == GraspRejection::none) workspace.picks.push_back(search.best);
     }
-    workspace.reasons.push_back(reason);
-    ++result.rejections[static_cast<std::size_t>(reason)];
+    workspace.reasons.push_back(search.reason);
+    ++result.rejections[static_cast<std::size_t>(search.reason)];
   }
-  std::sort(workspace.picks.begin(), workspace.picks.end(), [](const Pick& a, const Pick& b) {
+  std::sort(workspace.picks.begin(), workspace.picks.end(), [&](const Pick& a, const Pick& b) {
+    const std::int32_t rank_a = workspace.ranks[a.instance];
+    const std::int32_t rank_b = workspace.ranks[b.instance];
+    if (rank_a != rank_b) return rank_a > rank_b;
     return a.value != b.value ? a.value > b.value : a.instance < b.instance;
   });
 
   result.picks = workspace.picks.span();
   result.reasons = workspace.reasons.span();
+  result.rejected = workspace.rejected.span();
   result.pickable = static_cast<std::uint32_t>(result.picks.size());
   result.rejections[static_cast<std::size_t>(GraspRejection::none)] = 0;
   result.main_reason = main_reason(result);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/grasp/neighbours.hpp"
+
 namespace graspd {
 namespace {
 
@@ -13,6 +15,13 @@ float share(float figure, float full) {
   return std::clamp(figure / full, 0.0F, 1.0F);
 }
 
+/// The whole steps in `distance`, as a rank: the further the lower.
+std::int32_t steps_down(float distance, float step) {
+  constexpr float most = 1e9F;
+  const float steps = std::floor(distance / std::max(step, 1e-6F));
+  return -static_cast<std::int32_t>(std::isfinite(steps) ? std::clamp(steps, 0.0F, most) : most);
+}
+
 }  // namespace
 
 float grasp_value(const GraspFigures& figures, const RankingWeights& weights, float clearance_range) {
@@ -20,6 +29,25 @@ float grasp_value(const GraspFigures& figures, const RankingWeights& weights, fl
          weights.tilt * std::cos(figures.tilt) + weights.clearance * share(figures.clearance, clearance_range) +
          weights.height * (1.0F - share(figures.drop, weights.height_range)) +
          weights.turn * (1.0F - figures.turn / std::numbers::pi_v<float>);
+}
+
+std::int32_t order_rank(std::span<const Instance> instances, std::span<const Bank> banks, std::size_t instance,
+                        float drop, const GraspParameters& parameters) {
+  const OrderParameters& order = parameters.order;
+  switch (order.order) {
+    case PickOrder::value:
+      return 0;
+    case PickOrder::top_first:
+      return steps_down(drop, order.step);
+    case PickOrder::nearest: {
+      const Instance& one = instances[instance];
+      const Vector3 place = parameters.robot_from_camera * (one.camera_from_part * banks[one.bank].part->centre);
+      return steps_down((place - order.point).norm(), order.step);
+    }
+    case PickOrder::fewest_neighbours:
+      return -static_cast<std::int32_t>(count_neighbours(instances, banks, instance, order.neighbour_distance));
+  }
+  return 0;
 }
 
 }  // namespace graspd

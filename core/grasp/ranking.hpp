@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "core/bank/bank.hpp"
+#include "core/detect/detections.hpp"
 #include "core/grasp/parameters.hpp"
 
 namespace graspd {
@@ -16,7 +20,8 @@ struct GraspFigures {
   float turn = 0;             ///< Radians between the tool and the preferred orientation.
 };
 
-/// The value of a grasp; the highest is picked first. With the weights w, each figure scaled to [0, 1]:
+/// The value of a grasp; the highest is picked first, unless an order is asked for (order_rank). With the weights w,
+/// each figure scaled to [0, 1]:
 ///
 ///   value = w.priority  * priority
 ///         + w.score     * score
@@ -25,5 +30,14 @@ struct GraspFigures {
 ///         + w.height    * max(1 - drop / height_range, 0)
 ///         + w.turn      * (1 - turn / pi)
 [[nodiscard]] float grasp_value(const GraspFigures& figures, const RankingWeights& weights, float clearance_range);
+
+/// Where an instance stands in the order that OrderParameters ask for, in whole steps: the greatest comes first, the
+/// value of the grasp decides among equals.
+///   value               0
+///   top_first           - floor(metres below the highest instance / step)
+///   nearest             - floor(metres between the instance's middle and the point / step)
+///   fewest_neighbours   - number of neighbours
+[[nodiscard]] std::int32_t order_rank(std::span<const Instance> instances, std::span<const Bank> banks,
+                                      std::size_t instance, float drop, const GraspParameters& parameters);
 
 }  // namespace graspd

@@ -8,6 +8,9 @@ GraspWorkspace carve_grasp_workspace(Arena& arena, const GraspCapacity& capacity
   workspace.candidates = FixedVector(arena.take<GraspCandidate>(capacity.candidates, "grasp candidates"));
   workspace.picks = FixedVector(arena.take<Pick>(capacity.instances, "picks"));
   workspace.reasons = FixedVector(arena.take<GraspRejection>(capacity.instances, "picks"));
+  workspace.ranks = FixedVector(arena.take<std::int32_t>(capacity.instances, "picks"));
+  workspace.rejected = FixedVector(arena.take<RejectedGrasp>(2 * std::size_t{capacity.instances}, "picks"));
+  workspace.cloud = carve_cloud_map(arena, capacity.cloud_cells);
   return workspace;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/grasp/candidates.hpp"
+#include "core/grasp/cloud_map.hpp"
 #include "core/grasp/parameters.hpp"
 #include "core/grasp/pick.hpp"
 #include "core/memory/arena.hpp"
@@ -14,6 +15,9 @@ struct GraspWorkspace {
   FixedVector<GraspCandidate> candidates;  ///< Of the instance in hand.
   FixedVector<Pick> picks;
   FixedVector<GraspRejection> reasons;
+  FixedVector<std::int32_t> ranks;  ///< order_rank of each instance.
+  FixedVector<RejectedGrasp> rejected;
+  CloudMap cloud;
 };
 
 /// Carves the memory of a choice.

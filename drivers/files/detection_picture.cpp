@@ -16,6 +16,7 @@ namespace {
 constexpr Colour white{255, 255, 255};
 constexpr Colour black{0, 0, 0};
 constexpr Colour paper{24, 26, 33};
+constexpr Colour rejected_colour{255, 60, 90};
 constexpr std::array<Colour, 3> axis_colours{{{255, 70, 70}, {80, 230, 80}, {80, 140, 255}}};
 
 /// A frame whose pixels are repeated `factor` times, and the camera that fits it.
@@ -123,6 +124,24 @@ void draw_pose(const Drafter& drafter, const DrawnInstance& instance, const std:
   drafter.label(extent.centre, 10 * scale, label, white, scale);
 }
 
+/// The edges of the gripper's pieces.
+void draw_pieces(const Drafter& drafter, const RigidTransform& camera_from_tool, std::span<const Box> pieces,
+                 Colour colour, float thickness) {
+  for (const Box& box : pieces) {
+    std::array<Vector3, 8> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      corners[i] = camera_from_tool * Vector3((i & 1U) != 0 ? box.upper.x() : box.lower.x(),
+                                              (i & 2U) != 0 ? box.upper.y() : box.lower.y(),
+                                              (i & 4U) != 0 ? box.upper.z() : box.lower.z());
+    }
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      for (const std::size_t edge : {std::size_t{1}, std::size_t{2}, std::size_t{4}}) {
+        if ((i & edge) == 0) drafter.line(corners[i], corners[i | edge], colour, thickness);
+      }
+    }
+  }
+}
+
 void draw_pick(const Drafter& drafter, const DrawnInstance& instance, const DrawnPick& pick, const Camera& camera,
                int scale) {
   const Extent extent = extent_of(instance);
@@ -131,7 +150,8 @@ void draw_pick(const Drafter& drafter, const DrawnInstance& instance, const Draw
   drafter.ring(extent.centre, 1.1F * extent.radius * pixels_per_metre + 4.0F, pick_colour, 3.0F);
 
   const Matrix3& tool = pick.camera_from_tool.rotation;
-  if (pick.opening > 0.0F) {
+  draw_pieces(drafter, pick.camera_from_tool, pick.pieces, pick_colour, 2.0F);
+  if (pick.pieces.empty() && pick.opening > 0.0F) {
     const Vector3 half = 0.5F * pick.opening * tool.col(0);
     const Vector3 back = -0.5F * extent.radius * tool.col(2);
     for (const float side : {-1.0F, 1.0F}) {
@@ -151,7 +171,7 @@ void draw_pick(const Drafter& drafter, const DrawnInstance& instance, const Draw
 
 /// The band below the frame: the caption, and a line for each instance in as many columns as fit.
 Picture draw_legend(int width, std::span<const DrawnInstance> instances, const std::optional<DrawnPick>& pick,
-                    std::string_view caption, int scale) {
+                    bool with_rejected, std::string_view caption, int scale) {
   constexpr std::size_t most_rows = 6;
   const int line = text_height(scale) + 4 * scale;
   const int column_width = text_width(std::string(30, ' '), scale);
@@ -167,7 +187,8 @@ Picture draw_legend(int width, std::span<const DrawnInstance> instances, const s
   if (pick) {
     draw_text(legend, 4 * scale, 4 * scale + line,
               "ring: the pick, number " + std::to_string(pick->instance + 1) +
-                  "   white arrow: approach   yellow: jaws   red/green/blue: x/y/z",
+                  "   white arrow: approach   yellow: gripper" + (with_rejected ? "   red: rejected grasps" : "") +
+                  "   red/green/blue axes: x/y/z",
               pick_colour, scale);
   }
   for (std::size_t i = 0; i < shown; ++i) {
@@ -184,7 +205,8 @@ Picture draw_legend(int width, std::span<const DrawnInstance> instances, const s
 }  // namespace
 
 Picture draw_detections(const DepthFrame& frame, std::span<const DrawnInstance> instances,
-                        const std::optional<DrawnPick>& pick, std::string_view caption) {
+                        const std::optional<DrawnPick>& pick, std::string_view caption,
+                        std::span<const DrawnGrasp> rejected) {
   const EnlargedFrame large = enlarge(frame);
   const Camera& camera = large.frame.camera;
   const int scale = camera.width >= 1100 ? 2 : 1;
@@ -204,11 +226,14 @@ Picture draw_detections(const DepthFrame& frame, std::span<const DrawnInstance> 
     const bool roomy = instances.size() < crowd;
     draw_pose(drafter, instances[i], roomy ? number + " " + score_text(instances[i].score) : number, scale);
   }
+  for (const DrawnGrasp& grasp : rejected) {
+    draw_pieces(drafter, grasp.camera_from_tool, grasp.pieces, rejected_colour, 1.0F);
+  }
   if (pick && pick->instance < instances.size()) {
     draw_pick(drafter, instances[pick->instance], *pick, camera, scale);
   }
 
-  const Picture legend = draw_legend(camera.width, instances, pick, caption, scale);
+  const Picture legend = draw_legend(camera.width, instances, pick, !rejected.empty(), caption, scale);
   Picture whole(camera.width, camera.height + legend.height, paper);
   paste(whole, scene, 0, 0);
   paste(whole, legend, 0, camera.height);

@@ -87,6 +87,20 @@ ResultReason result_reason(GraspRejection rejection) {
       return ResultReason::collision;
     case GraspRejection::opening:
       return ResultReason::opening;
+    case GraspRejection::tool:
+      return ResultReason::tool;
+    case GraspRejection::avoided:
+      return ResultReason::avoided;
+    case GraspRejection::wall:
+      return ResultReason::wall;
+    case GraspRejection::unseen:
+      return ResultReason::unseen;
+    case GraspRejection::neighbour:
+      return ResultReason::neighbour;
+    case GraspRejection::closing:
+      return ResultReason::closing;
+    case GraspRejection::retreat:
+      return ResultReason::retreat;
   }
   return ResultReason::none;
 }

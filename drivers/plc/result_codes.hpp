@@ -92,13 +92,20 @@ enum class ResultReason : std::uint16_t {
   reach = 103,
   collision = 104,
   opening = 105,
+  tool = 106,
+  avoided = 107,
+  wall = 108,
+  unseen = 109,
+  neighbour = 110,
+  closing = 111,
+  retreat = 112,
 };
 
 struct ResultReasonEntry {
   ResultReason reason;
   std::string_view name;
 };
-inline constexpr std::array<ResultReasonEntry, 15> result_reason_table{{
+inline constexpr std::array<ResultReasonEntry, 22> result_reason_table{{
     {ResultReason::none, "none"},
     {ResultReason::weak, "weak"},
     {ResultReason::overlap, "overlap"},
@@ -114,6 +121,13 @@ inline constexpr std::array<ResultReasonEntry, 15> result_reason_table{{
     {ResultReason::reach, "reach"},
     {ResultReason::collision, "collision"},
     {ResultReason::opening, "opening"},
+    {ResultReason::tool, "tool"},
+    {ResultReason::avoided, "avoided"},
+    {ResultReason::wall, "wall"},
+    {ResultReason::unseen, "unseen"},
+    {ResultReason::neighbour, "neighbour"},
+    {ResultReason::closing, "closing"},
+    {ResultReason::retreat, "retreat"},
 }};
 
 /// A name for logs and tables; "unknown" for a number that is not in the table.

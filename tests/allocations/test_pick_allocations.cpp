@@ -17,7 +17,12 @@ TEST(PickAllocations, FrameToPickAllocatesNothing) {
   Arena arena({bytes.get(), measuring.used()});
   GraspWorkspace grasp_workspace = carve_grasp_workspace(arena, {});
   GraspParameters grasp_parameters;
-  grasp_parameters.gripper.finger_length = 0.060F;
+  grasp_parameters.tools.tools[0].finger_length = 0.060F;
+  // Every test that a grasp can be put to takes part.
+  grasp_parameters.bin.present = true;
+  grasp_parameters.bin.inner_size = Vector3::Constant(5.0F);
+  grasp_parameters.retreat.direction = RetreatDirection::up;
+  grasp_parameters.order.order = PickOrder::fewest_neighbours;
   grasp_parameters.maximum_tilt = 3.2F;
 
   DetectRequest request;

@@ -50,7 +50,7 @@ std::set<std::string> keys_asked_for(const std::string& source_file) {
 void expect_all_explained(const std::string& example, const std::set<std::string>& keys) {
   EXPECT_GT(keys.size(), 3U);
   for (const std::string& key : keys) {
-    const std::regex mention("(^|\\n)#?(" + key + " = |\\[+([a-z_]+\\.)?" + key + "\\]+)");
+    const std::regex mention("(^|\\n)(## |#)?(" + key + " = |\\[+([a-z_]+\\.)?" + key + "\\]+)");
     EXPECT_TRUE(std::regex_search(example, mention)) << key << " is not in the example";
   }
 }
@@ -141,20 +141,38 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(grasp.parameters.weights.height);
   GRASPD_COMPARE(grasp.parameters.weights.turn);
   GRASPD_COMPARE(grasp.parameters.weights.height_range);
-  GRASPD_COMPARE(grasp.parameters.gripper.maximum_opening);
-  GRASPD_COMPARE(grasp.parameters.gripper.finger_thickness);
-  GRASPD_COMPARE(grasp.parameters.gripper.finger_width);
-  GRASPD_COMPARE(grasp.parameters.gripper.finger_length);
-  GRASPD_COMPARE(grasp.parameters.gripper.finger_tip);
-  GRASPD_COMPARE(grasp.parameters.gripper.palm_width);
-  GRASPD_COMPARE(grasp.parameters.gripper.palm_depth);
-  GRASPD_COMPARE(grasp.parameters.gripper.palm_height);
-  GRASPD_COMPARE(grasp.parameters.gripper.cup_radius);
-  GRASPD_COMPARE(grasp.parameters.gripper.cup_length);
-  GRASPD_COMPARE(grasp.parameters.gripper.tube_radius);
-  GRASPD_COMPARE(grasp.parameters.gripper.tube_length);
-  GRASPD_COMPARE(grasp.parameters.gripper.contact_margin);
-  GRASPD_COMPARE(grasp.parameters.gripper.half_turn);
+  GRASPD_COMPARE(grasp.capacity.checks);
+  GRASPD_COMPARE(grasp.capacity.cloud_cells);
+  GRASPD_COMPARE(grasp.parameters.collision.maximum_unseen);
+  GRASPD_COMPARE(grasp.parameters.retreat.direction);
+  GRASPD_COMPARE(grasp.parameters.retreat.distance);
+  GRASPD_COMPARE(grasp.parameters.order.order);
+  GRASPD_COMPARE(grasp.parameters.order.step);
+  GRASPD_COMPARE(grasp.parameters.order.neighbour_distance);
+  GRASPD_COMPARE(grasp.parameters.avoid.radius);
+  GRASPD_COMPARE(grasp.parameters.avoid.runs);
+  GRASPD_COMPARE(grasp.parameters.bin.wall);
+  GRASPD_COMPARE(grasp.parameters.tools.count);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].minimum_opening);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].maximum_opening);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].finger_thickness);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].finger_width);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].finger_length);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].finger_tip);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].palm_width);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].palm_depth);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].palm_height);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].contact_margin);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].half_turn);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].kind);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[0].number);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[1].cup_radius);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[1].cup_length);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[1].tube_radius);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[1].tube_length);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[1].contact_margin);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[1].kind);
+  GRASPD_COMPARE(grasp.parameters.tools.tools[1].number);
   GRASPD_COMPARE(modbus.port);
   GRASPD_COMPARE(modbus.maximum_clients);
   GRASPD_COMPARE(modbus.maximum_rate);

@@ -72,7 +72,7 @@ TEST_F(PartFileText, AxesThatMakeNoGroupAreRefused) {
 TEST_F(PartFileText, GraspMakesARightHandedToolFrame) {
   const Result<PartFile> result = read(
       "[[grasp]]\nposition = [0, 5, 10]\napproach = [0, 0, -3]\nclosing = [0, 2, 0]\nwidth = 40\npriority = 2\n"
-      "[[grasp]]\nposition = [0, 0, 0]\napproach = [1, 0, 0]\nclosing = [0, 1, 0]\n");
+      "[[grasp]]\nkind = \"suction\"\nposition = [0, 0, 0]\napproach = [1, 0, 0]\ntool = 3\n");
   ASSERT_TRUE(result.ok()) << result.status().message();
   ASSERT_EQ(result.value().part.grasps.size(), 2U);
   const PartGrasp& grasp = result.value().part.grasps[0];
@@ -83,14 +83,63 @@ TEST_F(PartFileText, GraspMakesARightHandedToolFrame) {
   EXPECT_FLOAT_EQ(grasp.opening, 0.04F);
   EXPECT_EQ(grasp.priority, 2);
   EXPECT_EQ(grasp.number, 1U);
+  EXPECT_EQ(grasp.kind, GraspKind::parallel);
+  EXPECT_FLOAT_EQ(grasp.least_opening, 0.04F);
   EXPECT_EQ(result.value().part.grasps[1].number, 2U);
+  EXPECT_EQ(result.value().part.grasps[1].kind, GraspKind::suction);
+  EXPECT_EQ(result.value().part.grasps[1].tool, 3U);
+  EXPECT_FLOAT_EQ(result.value().part.grasps[1].opening, 0.0F);
 }
 
 TEST_F(PartFileText, SkewGraspIsRefused) {
-  EXPECT_EQ(complaint("[[grasp]]\nposition = [0, 0, 0]\napproach = [0, 0, 1]\nclosing = [1, 0, 1]\n"),
+  EXPECT_EQ(complaint("[[grasp]]\nposition = [0, 0, 0]\napproach = [0, 0, 1]\nclosing = [1, 0, 1]\nwidth = 9\n"),
             "part.toml:7: grasp.closing must be at a right angle to the approach");
-  EXPECT_EQ(complaint("[[grasp]]\nposition = [0, 0, 0]\napproach = [0, 0, 0]\nclosing = [1, 0, 1]\n"),
+  EXPECT_EQ(complaint("[[grasp]]\nposition = [0, 0, 0]\napproach = [0, 0, 0]\nclosing = [1, 0, 1]\nwidth = 9\n"),
             "part.toml:6: grasp.approach must be a direction, but has no length");
+}
+
+constexpr const char* jaws = "[[grasp]]\nposition = [0, 0, 10]\napproach = [0, 0, -1]\nclosing = [1, 0, 0]\n";
+
+TEST_F(PartFileText, WidthMayBeARange) {
+  const Result<PartFile> result = read(std::string(jaws) + "width = [30, 45]\nheld_width = 28\n");
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  const PartGrasp& grasp = result.value().part.grasps[0];
+  EXPECT_FLOAT_EQ(grasp.least_opening, 0.030F);
+  EXPECT_FLOAT_EQ(grasp.opening, 0.045F);
+  EXPECT_FLOAT_EQ(grasp.held_width, 0.028F);
+}
+
+TEST_F(PartFileText, WidthsThatMakeNoSenseAreRefused) {
+  EXPECT_EQ(complaint(std::string(jaws) + "width = [45, 30]\n"),
+            "part.toml:8: grasp.width must be two numbers between 0 and 1000, the lesser one first");
+  EXPECT_EQ(complaint(std::string(jaws) + "width = 0\n"), "part.toml:8: grasp.width must be greater than 0");
+  EXPECT_EQ(complaint(std::string(jaws) + "width = 30\nheld_width = 31\n"),
+            "part.toml:9: grasp.held_width must not be greater than width");
+  EXPECT_THAT(complaint(jaws), StartsWith("part.toml:4: grasp.width is missing: "));
+  EXPECT_THAT(complaint("[[grasp]]\nkind = \"magnetic\"\nposition = [0, 0, 0]\napproach = [0, 0, 1]\nwidth = 3\n"),
+              StartsWith("part.toml:8: unknown key grasp.width"));
+}
+
+TEST_F(PartFileText, GraspIsExpandedAboutAnAxis) {
+  const Result<PartFile> circle =
+      read(std::string(jaws) + "width = 30\n[grasp.around]\naxis = [0, 1, 0]\noffset = [5, 0, 0]\nsteps = 4\n");
+  ASSERT_TRUE(circle.ok()) << circle.status().message();
+  const std::vector<PartGrasp>& grasps = circle.value().part.grasps;
+  ASSERT_EQ(grasps.size(), 4U);
+  for (const PartGrasp& grasp : grasps) EXPECT_EQ(grasp.number, 1U);
+  // A quarter turn about y carries z to x.
+  EXPECT_TRUE(grasps[1].part_from_tool.translation.isApprox(Vector3(0.015F, 0, 0.005F), 1e-4F));
+  EXPECT_TRUE(grasps[1].part_from_tool.rotation.col(2).isApprox(Vector3(-1, 0, 0), 1e-4F));
+  EXPECT_TRUE(grasps[2].part_from_tool.rotation.col(2).isApprox(Vector3(0, 0, 1), 1e-4F));
+
+  const Result<PartFile> arc =
+      read(std::string(jaws) + "width = 30\n[grasp.around]\naxis = [0, 0, 1]\nsteps = 3\nfrom = -45\nto = 45\n");
+  ASSERT_TRUE(arc.ok()) << arc.status().message();
+  ASSERT_EQ(arc.value().part.grasps.size(), 3U);
+  const Vector3 last = arc.value().part.grasps[2].part_from_tool.rotation.col(0);
+  EXPECT_NEAR(std::atan2(last.y(), last.x()), 0.7854F, 1e-3F) << "an arc includes both ends";
+  EXPECT_EQ(complaint(std::string(jaws) + "width = 30\n[grasp.around]\naxis = [0, 0, 1]\nfrom = 10\nto = 5\n"),
+            "part.toml:12: grasp.around.to must be greater than from, by at most 360");
 }
 
 TEST_F(PartFileText, GraspWithoutPositionSaysSo) {

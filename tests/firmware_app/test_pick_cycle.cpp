@@ -8,6 +8,7 @@
 
 #include "core/geometry/symmetry.hpp"
 #include "firmware_app/answer_text.hpp"
+#include "firmware_app/request_resolution.hpp"
 #include "tests/firmware_app/pick_cycle_fixture.hpp"
 
 namespace graspd {
@@ -117,7 +118,7 @@ TEST(PickCycle, EmptyBinIsToldFromNoMatch) {
 
 TEST(PickCycle, FoundButNotPickableSaysWhy) {
   PickCycleFixture fixture(angle_bar_scene());
-  fixture.cycle.settings.grasp.gripper.maximum_opening = 0.005F;
+  fixture.cycle.settings.grasp.tools.tools[0].maximum_opening = 0.005F;
   const Answer answer = fixture.ask();
   EXPECT_EQ(answer.block.code, ResultCode::not_pickable);
   EXPECT_EQ(answer.block.reason, ResultReason::opening);
@@ -272,10 +273,123 @@ TEST(PickCycle, RequestsThatMeanNothingAreBadRequests) {
   EXPECT_THAT(message(unserved), HasSubstr("output.snapshots is not configured"));
   unserved.kind = RequestKind::next;
   EXPECT_THAT(message(unserved), HasSubstr("output.snapshots is not configured"));
-  unserved = {};
-  unserved.avoid_last_place = true;
-  EXPECT_THAT(message(unserved), HasSubstr("not served"));
+  fixture.cycle.settings.camera_on_flange = true;
+  EXPECT_THAT(message({}), HasSubstr("set flange_pose_given in options and write flange_pose"));
+  EXPECT_THAT(message(flange), HasSubstr("flange_pose in the request is no pose"));
+  flange.robot_from_flange = {2.0F * Matrix3::Identity(), Vector3::Zero()};
+  EXPECT_THAT(message(flange), HasSubstr("flange_pose in the request is no pose"));
   EXPECT_EQ(fixture.source.sequence, 0U) << "no frame is taken for any of them";
+}
+
+/// A request from a robot whose flange looks down on the bin, leaning by `lean` radians.
+PlcRequest request_from(float lean, const Vector3& place) {
+  PlcRequest request;
+  request.has_flange_pose = true;
+  request.robot_from_flange = {Eigen::AngleAxisf(3.14159265F + lean, Vector3::UnitX()).toRotationMatrix(), place};
+  return request;
+}
+
+TEST(PickCycle, CameraOnTheFlangeGoesWithTheRobot) {
+  PickCycleFixture fixture(angle_bar_scene(1));
+  const ResultBlock in_camera = fixture.ask().block;
+  PickSettings& settings = fixture.cycle.settings;
+  settings.calibrated = settings.camera_on_flange = true;
+  settings.flange_from_camera.translation = Vector3(0.0F, 0.06F, 0.04F);
+  for (const PlcRequest& request :
+       {request_from(0.04F, Vector3(0.4F, 0.1F, 0.9F)), request_from(-0.1F, Vector3(-0.3F, 0.5F, 1.1F))}) {
+    const RigidTransform robot_from_camera = request.robot_from_flange * settings.flange_from_camera;
+    const ResultBlock in_robot = fixture.ask(request).block;
+    ASSERT_EQ(in_robot.code, ResultCode::ok);
+    EXPECT_EQ(in_robot.frame, PoseFrame::robot);
+    const Vector3 expected = robot_from_camera * in_camera.part_pose.translation;
+    EXPECT_LT((expected - in_robot.part_pose.translation).norm(), 1e-4F);
+    const Vector3 tool = in_robot.part_pose * angle_bar_grasp().part_from_tool.translation;
+    EXPECT_LT((tool - in_robot.pick.translation).norm(), 1e-4F);
+    EXPECT_LT((fixture.cycle.capture.robot_from_camera.translation - robot_from_camera.translation).norm(), 1e-6F)
+        << "what pictures are drawn with";
+  }
+}
+
+TEST(PickCycle, BoxAndRegionStandStillWhenTheFlangeMoves) {
+  PickCycleFixture fixture(angle_bar_scene());
+  PickSettings& settings = fixture.cycle.settings;
+  settings.calibrated = settings.camera_on_flange = true;
+  settings.robot_from_box.translation = Vector3(0.3F, 0.0F, 0.1F);
+  PlcRequest request = request_from(0.04F, Vector3(0.4F, 0.1F, 0.9F));
+  const RigidTransform camera_from_robot = inverse(request.robot_from_flange);
+  ResolvedRequest resolved;
+  ASSERT_TRUE(resolve_request(request, settings, fixture.banks, resolved).ok());
+  const Vector3 box_in_camera = camera_from_robot * settings.robot_from_box.translation;
+  EXPECT_LT((resolved.detect.preprocess.box_from_camera * box_in_camera).norm(), 1e-5F);
+
+  const RigidTransform& part = fixture.source.scene.poses[1];
+  request.region = request_region::box;
+  request.box.reference_from_box.translation = request.robot_from_flange * part.translation;
+  request.box.half_size = Vector3::Constant(0.06F);
+  const ResultBlock block = fixture.ask(request).block;
+  ASSERT_EQ(block.code, ResultCode::ok);
+  EXPECT_EQ(block.instances_found, 1);
+  EXPECT_LT((block.part_pose.translation - request.box.reference_from_box.translation).norm(), 0.002F);
+}
+
+PlcRequest avoiding(RequestKind kind = RequestKind::capture) {
+  PlcRequest request;
+  request.kind = kind;
+  request.avoid_last_place = true;
+  return request;
+}
+
+TEST(PickCycle, PlaceOfAFailedPickIsLeftAloneForAWhile) {
+  PickCycleFixture fixture(angle_bar_scene());
+  fixture.cycle.settings.grasp.avoid.runs = 2;
+  EXPECT_EQ(fixture.ask(avoiding()).block.pickable, 2) << "before any pick there is nothing to avoid";
+  const Vector3 first = fixture.ask().block.pick.translation;
+  for (const PlcRequest& request : {avoiding(), PlcRequest{}}) {
+    const ResultBlock other = fixture.ask(request).block;
+    ASSERT_EQ(other.code, ResultCode::ok);
+    EXPECT_EQ(other.pickable, 1);
+    EXPECT_GT((other.pick.translation - first).norm(), 0.05F);
+  }
+  EXPECT_LT((fixture.ask().block.pick.translation - first).norm(), 0.01F);
+}
+
+TEST(PickCycle, AvoidedEverywhereIsNotPickable) {
+  PickCycleFixture fixture(angle_bar_scene(1));
+  ASSERT_EQ(fixture.ask().block.code, ResultCode::ok);
+  const Answer answer = fixture.ask(avoiding());
+  EXPECT_EQ(answer.block.code, ResultCode::not_pickable);
+  EXPECT_EQ(answer.block.reason, ResultReason::avoided);
+  EXPECT_FALSE(has_poses(answer.block));
+}
+
+TEST(PickCycle, FailedPlaceIsRememberedWhenTheNextCaptureFails) {
+  PickCycleFixture fixture(angle_bar_scene());
+  const Vector3 first = fixture.ask().block.pick.translation;
+  fixture.source.failure = Status(StatusCode::camera_lost, "the cable is out");
+  EXPECT_EQ(fixture.ask(avoiding()).block.code, ResultCode::camera_lost);
+  fixture.source.failure = {};
+  const ResultBlock other = fixture.ask().block;
+  ASSERT_EQ(other.code, ResultCode::ok);
+  EXPECT_GT((other.pick.translation - first).norm(), 0.05F);
+}
+
+TEST(PickCycle, DryRunIsNoPickThatCouldHaveFailed) {
+  PickCycleFixture fixture(angle_bar_scene());
+  PlcRequest dry;
+  dry.dry_run = true;
+  EXPECT_EQ(fixture.ask(dry).block.code, ResultCode::dry_run);
+  EXPECT_EQ(fixture.ask(avoiding()).block.pickable, 2);
+}
+
+TEST(PickCycle, NextLeavesOutWhatIsNearAFailedPick) {
+  PickCycleFixture fixture(angle_bar_scene());
+  ASSERT_EQ(fixture.ask().block.code, ResultCode::ok);
+  EXPECT_EQ(fixture.ask(avoiding(RequestKind::next)).block.code, ResultCode::ok) << "the other part is far enough";
+
+  fixture.cycle.memory.avoided.clear();
+  fixture.cycle.settings.grasp.avoid.radius = 1.0F;
+  ASSERT_EQ(fixture.ask().block.code, ResultCode::ok);
+  EXPECT_EQ(fixture.ask(avoiding(RequestKind::next)).block.code, ResultCode::nothing_left);
 }
 
 TEST(PickCycle, WarmUpLeavesNothingToPick) {

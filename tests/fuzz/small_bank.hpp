@@ -60,7 +60,8 @@ inline std::vector<std::byte> small_bank_file() {
   const std::vector<RigidTransform> symmetry{RigidTransform{}, half_turn};
   RigidTransform from_above;
   from_above.rotation = Vector3(1.0F, -1.0F, -1.0F).asDiagonal();
-  const std::vector<PartGrasp> grasps{{from_above, 0.036F, 1, 1}, {from_above, 0.0F, 0, 2}};
+  const std::vector<PartGrasp> grasps{{from_above, 0.036F, 1, 1, GraspKind::parallel, 0.032F, 0.030F, 0},
+                                      {from_above, 0.0F, 0, 2, GraspKind::suction, 0.0F, 0.0F, 2}};
 
   Bank bank;
   bank.part = &part;

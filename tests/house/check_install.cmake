@@ -14,7 +14,7 @@ endfunction()
 install_it()
 foreach(file usr/bin/graspd usr/lib/systemd/system/graspd.service etc/graspd/graspd.toml
              usr/share/doc/graspd/register-map.md usr/share/doc/graspd/log-codes.md usr/share/doc/graspd/graspd.toml
-             usr/share/doc/graspd/part.toml)
+             usr/share/doc/graspd/part.toml usr/share/doc/graspd/calibration.toml)
   if(NOT EXISTS ${staging}/${file})
     message(FATAL_ERROR "not installed: /${file}")
   endif()

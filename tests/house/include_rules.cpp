@@ -43,6 +43,7 @@ const std::map<std::string, std::set<std::string>> rooms_a_core_room_may_see = {
     {"core/bank", {"core/geometry", "core/memory"}},
     {"core/detect", {"core/bank", "core/geometry", "core/memory"}},
     {"core/grasp", {"core/detect", "core/bank", "core/geometry", "core/memory"}},
+    {"core/calibrate", {"core/geometry"}},
     {"core/evaluate", {"core/geometry", "core/memory"}},
     {"core/train", {"core/evaluate", "core/detect", "core/bank", "core/geometry", "core/memory"}},
 };

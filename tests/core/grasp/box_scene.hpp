@@ -61,12 +61,33 @@ struct GraspBank {
   BankPart part;
   std::vector<RigidTransform> discrete{RigidTransform{}};
   std::vector<PartGrasp> grasps;
+  std::vector<SurfacePoint> surface;
+
+  /// Gives the part the shape of a box about its origin.
+  void make_box(const Vector3& half_size) {
+    part.box_min = -half_size;
+    part.box_max = half_size;
+    part.diameter = 2.0F * half_size.norm();
+    surface.clear();
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const float side : {-1.0F, 1.0F}) {
+        for (int i = 0; i < 81; ++i) {
+          Vector3 point;
+          point[axis] = side * half_size[axis];
+          point[(axis + 1) % 3] = half_size[(axis + 1) % 3] * (0.25F * static_cast<float>(i % 9) - 1.0F);
+          point[(axis + 2) % 3] = half_size[(axis + 2) % 3] * (0.25F * static_cast<float>(i / 9) - 1.0F);
+          surface.push_back({point, side * Vector3::Unit(axis)});
+        }
+      }
+    }
+  }
 
   [[nodiscard]] Bank bank() const {
     Bank result;
     result.part = &part;
     result.symmetry_discrete = discrete;
     result.grasps = grasps;
+    result.surface = surface;
     return result;
   }
 };

@@ -18,10 +18,11 @@ struct Candidates : testing::Test {
     storage.resize(256);
     candidates = FixedVector<GraspCandidate>(storage);
   }
-  GraspRejection fill() { return grasp_candidates(part.bank(), target, parameters, candidates); }
+  GraspRejection fill() { return grasp_candidates(part.bank(), target, parameters, avoided, candidates); }
   GraspBank part;
   GraspTarget target{shift(0.05F, 0.02F, 0.6F), 0.8F, 0.0F};
   GraspParameters parameters;
+  std::vector<AvoidedPlace> avoided;
   std::vector<GraspCandidate> storage;
   FixedVector<GraspCandidate> candidates;
 };
@@ -58,13 +59,13 @@ TEST_F(Candidates, MembersThatGiveTheSameGraspAreGivenOnce) {
   part.discrete.push_back(turn(Vector3::UnitZ(), pi));
   ASSERT_EQ(fill(), GraspRejection::none);
   EXPECT_EQ(candidates.size(), 1U) << "half a turn of the part is half a turn of the tool";
-  parameters.gripper.half_turn = false;
+  parameters.tools.tools[0].half_turn = false;
   ASSERT_EQ(fill(), GraspRejection::none);
   EXPECT_EQ(candidates.size(), 2U);
 }
 
 TEST_F(Candidates, MemberNearestThePreferredOrientationComesFirst) {
-  parameters.gripper.half_turn = false;
+  parameters.tools.tools[0].half_turn = false;
   part.discrete.push_back(turn(Vector3::UnitZ(), pi));
   for (float angle = -3.0F; angle < 3.1F; angle += 0.5F) {
     target.robot_from_part = shift(0.0F, 0.0F, 0.6F) * turn(Vector3::UnitZ(), angle);
@@ -80,13 +81,14 @@ TEST_F(Candidates, JawsAreExchangedTowardsThePreferredOrientation) {
   target.robot_from_part = shift(0.0F, 0.0F, 0.6F) * turn(Vector3::UnitZ(), 2.8F);
   ASSERT_EQ(fill(), GraspRejection::none);
   EXPECT_NEAR(candidates[0].turn, pi - 2.8F, 1e-3F);
-  parameters.gripper.half_turn = false;
+  parameters.tools.tools[0].half_turn = false;
   ASSERT_EQ(fill(), GraspRejection::none);
   EXPECT_NEAR(candidates[0].turn, 2.8F, 1e-3F);
 }
 
 TEST_F(Candidates, CupTurnsFreely) {
   part.grasps[0].opening = 0.0F;
+  part.grasps[0].kind = GraspKind::suction;
   target.robot_from_part = shift(0.0F, 0.0F, 0.6F) * turn(Vector3::UnitZ(), 2.0F);
   ASSERT_EQ(fill(), GraspRejection::none);
   EXPECT_LT(candidates[0].turn, 1e-3F);
@@ -171,6 +173,8 @@ TEST_F(Candidates, ValueThatIsNoNumberIsNotRanked) {
 TEST_F(Candidates, ReasonIsThatOfTheGraspThatCameFurthest) {
   part.grasps.clear();
   EXPECT_EQ(fill(), GraspRejection::no_grasp);
+  part.grasps.push_back({RigidTransform{}, 0.0F, 0, 1, GraspKind::magnetic});
+  EXPECT_EQ(fill(), GraspRejection::tool);
   part.grasps.push_back({RigidTransform{}, 0.500F, 0, 1});
   EXPECT_EQ(fill(), GraspRejection::opening);
   parameters.maximum_tilt = 0.5F;
@@ -179,6 +183,32 @@ TEST_F(Candidates, ReasonIsThatOfTheGraspThatCameFurthest) {
   parameters.reach.maximum_radius = 0.01F;
   part.grasps.push_back({RigidTransform{}, 0.030F, 0, 3});
   EXPECT_EQ(fill(), GraspRejection::reach);
+}
+
+TEST_F(Candidates, AvoidedPlacesAreLeftOut) {
+  ASSERT_EQ(fill(), GraspRejection::none);
+  const Vector3 place = candidates[0].robot_from_tool.translation;
+  avoided = {{place + Vector3(0.0F, 0.031F, 0.0F), 3}};
+  EXPECT_EQ(fill(), GraspRejection::none);
+  avoided.push_back({place + Vector3(0.0F, 0.029F, 0.0F), 1});
+  EXPECT_EQ(fill(), GraspRejection::avoided);
+}
+
+TEST_F(Candidates, GraspTakesTheToolThatItNames) {
+  parameters.tools.count = 3;
+  parameters.tools.tools[2].number = 9;
+  parameters.tools.tools[2].maximum_opening = 0.200F;
+  ASSERT_EQ(fill(), GraspRejection::none);
+  EXPECT_EQ(candidates[0].tool, 0U) << "the first of its kind";
+  part.grasps[0].tool = 9;
+  ASSERT_EQ(fill(), GraspRejection::none);
+  EXPECT_EQ(candidates[0].tool, 2U);
+  part.grasps[0].tool = 0;
+  part.grasps[0].opening = part.grasps[0].least_opening = 0.150F;
+  ASSERT_EQ(fill(), GraspRejection::none);
+  EXPECT_EQ(candidates[0].tool, 2U) << "the first that opens wide enough";
+  part.grasps[0].tool = 2;
+  EXPECT_EQ(fill(), GraspRejection::tool) << "tool 2 is a cup";
 }
 
 TEST_F(Candidates, OverrunKeepsTheBestAndCounts) {

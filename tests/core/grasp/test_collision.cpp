@@ -15,7 +15,7 @@ float clearance_by_steps(const DepthFrame& frame, const RigidTransform& camera_f
   constexpr int steps = 200;
   const RigidTransform tool_from_camera = inverse(camera_from_tool);
   float clearance = parameters.clearance_range;
-  for (const GripperBox& piece : gripper.boxes()) {
+  for (const GripperPiece& piece : gripper.all()) {
     std::vector<float> distances(parameters.minimum_points, parameters.clearance_range);
     for (int v = 0; v < frame.camera.height; ++v) {
       for (int u = 0; u < frame.camera.width; ++u) {
@@ -39,6 +39,19 @@ float clearance_by_steps(const DepthFrame& frame, const RigidTransform& camera_f
     clearance = std::min(clearance, *place);
   }
   return clearance;
+}
+
+/// The clearance on the way in to a part of which the whole space between the jaws is taken to be.
+float clearance_of(const DepthFrame& frame, const RigidTransform& camera_from_tool, const Gripper& gripper,
+                   float approach_distance, const CollisionParameters& parameters) {
+  std::vector<std::byte> bytes(8U << 20U);
+  Arena arena({bytes.data(), bytes.size()});
+  CloudMap map = carve_cloud_map(arena, 320 * 240);
+  EXPECT_FALSE(arena.exhausted());
+  fill_cloud_map(frame, parameters.sample_spacing, 0.6F, map);
+  const HeldPart anything{RigidTransform{}, {Vector3::Constant(-10.0F), Vector3::Constant(10.0F)}};
+  return sweep_clearance(map, {camera_from_tool, &gripper, Vector3(0.0F, 0.0F, -approach_distance)}, anything,
+                         parameters);
 }
 
 BoxScene random_scene(std::mt19937& random) {
@@ -72,8 +85,10 @@ TEST(Collision, ClearanceAgreesWithBruteForceInManySteps) {
     RigidTransform camera_from_tool = turn(Vector3(unit(random), unit(random), 0.1F), 0.7F * unit(random)) *
                                       turn(Vector3::UnitZ(), 3.0F * unit(random));
     camera_from_tool.translation = Vector3(0.1F * unit(random), 0.08F * unit(random), 0.46F + 0.06F * unit(random));
-    const Gripper gripper = gripper_at(GripperParameters{}, trial % 3 == 0 ? 0.0F : 0.03F);
-    const float found = approach_clearance(frame, camera_from_tool, gripper, 0.08F, parameters);
+    Tool tool;
+    tool.kind = trial % 3 == 0 ? GraspKind::suction : GraspKind::parallel;
+    const Gripper gripper = open_gripper(tool, 0.03F);
+    const float found = clearance_of(frame, camera_from_tool, gripper, 0.08F, parameters);
     EXPECT_NEAR(found, clearance_by_steps(frame, camera_from_tool, gripper, 0.08F, parameters), 2e-4F)
         << "trial " << trial;
     free += found >= parameters.clearance_range ? 1 : 0;
@@ -88,10 +103,18 @@ struct BoxPart : testing::Test {
   BoxPart() { scene.boxes.push_back({shift(0.0F, 0.0F, 0.585F), Vector3(0.015F, 0.030F, 0.015F)}); }
   float clearance() {
     const DepthFrame frame = scene.render();
-    return approach_clearance(frame, camera_from_tool, gripper_at(gripper, opening), 0.1F, parameters);
+    return clearance(frame, 0.1F);
+  }
+  float clearance(const DepthFrame& frame, float way) {
+    return clearance_of(frame, camera_from_tool, open_gripper(tool(), opening), way, parameters);
+  }
+  Tool tool() {
+    Tool result = gripper;
+    if (opening == 0.0F) result.kind = GraspKind::suction;
+    return result;
   }
   BoxScene scene;
-  GripperParameters gripper;
+  Tool gripper;
   CollisionParameters parameters;
   RigidTransform camera_from_tool = shift(0.0F, 0.0F, 0.580F);
   float opening = 0.036F;
@@ -136,15 +159,14 @@ TEST_F(BoxPart, SweepHitsWhatHangsOverThePart) {
   scene.boxes.push_back(overhang);
   EXPECT_LE(clearance(), parameters.minimum_clearance);
   const DepthFrame frame = scene.render();
-  EXPECT_GT(approach_clearance(frame, camera_from_tool, gripper_at(gripper, opening), 0.05F, parameters), 0.0F);
+  EXPECT_GT(clearance(frame, 0.05F), 0.0F);
 }
 
 TEST_F(BoxPart, UnmeasuredPixelsSayNothing) {
   scene.boxes.push_back({shift(0.030F, 0.0F, 0.585F), Vector3(0.010F, 0.010F, 0.015F)});
   const DepthFrame frame = scene.render();
   std::fill(frame.depth.begin(), frame.depth.end(), 0.0F);
-  EXPECT_FLOAT_EQ(approach_clearance(frame, camera_from_tool, gripper_at(gripper, opening), 0.1F, parameters),
-                  parameters.clearance_range);
+  EXPECT_FLOAT_EQ(clearance(frame, 0.1F), parameters.clearance_range);
 }
 
 TEST_F(BoxPart, FewFlyingPixelsAreNoObstacle) {
@@ -152,7 +174,7 @@ TEST_F(BoxPart, FewFlyingPixelsAreNoObstacle) {
   parameters.sample_spacing = 0.0F;
   for (int flying = 1; flying <= 3; ++flying) {
     frame.depth[frame.camera.index(159 + flying, 119)] = 0.45F;
-    const float found = approach_clearance(frame, camera_from_tool, gripper_at(gripper, opening), 0.1F, parameters);
+    const float found = clearance(frame, 0.1F);
     EXPECT_EQ(found <= 0.0F, flying == 3) << flying;
   }
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <memory>
 #include <random>
@@ -15,8 +16,7 @@ namespace {
 struct Planner : testing::Test {
   Planner() {
     const RigidTransform from_above = turn(Vector3::UnitX(), 3.14159265F);
-    part.part.box_min = Vector3(-0.015F, -0.030F, -0.015F);
-    part.part.box_max = Vector3(0.015F, 0.030F, 0.015F);
+    part.make_box(Vector3(0.015F, 0.030F, 0.015F));
     part.grasps.push_back({from_above, 0.036F, 1, 1});
     part.grasps.push_back({from_above * turn(Vector3::UnitZ(), 1.5707963F), 0.066F, 0, 2});
     carve({});
@@ -44,12 +44,13 @@ struct Planner : testing::Test {
     const Bank bank = part.bank();
     Detections detections;
     detections.instances = instances;
-    return choose_pick(frame, detections, {&bank, 1}, parameters, workspace);
+    return choose_pick(frame, detections, {&bank, 1}, parameters, workspace, avoided);
   }
   GraspBank part;
   BoxScene scene;
   std::vector<Instance> instances;
   GraspParameters parameters;
+  std::vector<AvoidedPlace> avoided;
   DepthFrame frame;
   std::unique_ptr<std::byte[]> bytes;
   GraspWorkspace workspace;
@@ -176,6 +177,170 @@ TEST_F(Planner, CountsInstancesByReasonAndNamesTheMostFrequent) {
   EXPECT_EQ(result.rejections[static_cast<std::size_t>(GraspRejection::collision)], 1U);
   EXPECT_EQ(result.rejections[static_cast<std::size_t>(GraspRejection::tilt)], 2U) << "those point away";
   EXPECT_EQ(result.main_reason, GraspRejection::tilt);
+}
+
+/// The reason why the first instance was not picked with its first grasp alone.
+GraspRejection reason_of(const PickResult& result) {
+  return result.reasons.empty() ? GraspRejection::none : result.reasons[0];
+}
+
+TEST_F(Planner, KeepsOffTheWallsOfTheBin) {
+  part.grasps.resize(1);
+  add_block(0.0F, 0.0F, 0.585F);
+  parameters.bin.present = true;
+  parameters.bin.robot_from_bin = shift(0.05F, 0.0F, 0.50F);
+  parameters.bin.inner_size = Vector3(0.20F, 0.30F, 0.20F);
+  EXPECT_EQ(reason_of(choose()), GraspRejection::wall) << "the palm reaches 55 mm to the side, the wall is 50 mm away";
+  parameters.bin.robot_from_bin = shift(0.03F, 0.0F, 0.50F);
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none);
+  parameters.bin.robot_from_bin = shift(0.03F, 0.0F, 0.485F);
+  EXPECT_EQ(reason_of(choose()), GraspRejection::wall) << "the floor lies where the jaws' tips go";
+  parameters.bin.robot_from_bin = shift(0.05F, 0.0F, 0.575F);
+  parameters.bin.inner_size.z() = 0.05F;
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none) << "the palm passes over a rim that is low enough";
+}
+
+TEST_F(Planner, HeldPartKeepsOffTheWallsOnTheWayOut) {
+  part.grasps = {{turn(Vector3::UnitX(), 3.14159265F) * turn(Vector3::UnitX(), 0.4F), 0.050F, 1, 1}};
+  part.make_box(Vector3(0.010F, 0.080F, 0.010F));
+  add_block(0.0F, 0.0F, 0.585F);
+  parameters.bin.present = true;
+  parameters.bin.robot_from_bin = shift(0.0F, 0.0F, 0.585F);
+  parameters.bin.inner_size = Vector3(0.60F, 0.172F, 0.03F);
+  parameters.retreat.direction = RetreatDirection::up;
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none) << "straight up it leaves along the walls";
+  parameters.retreat.direction = RetreatDirection::tool;
+  EXPECT_EQ(reason_of(choose()), GraspRejection::retreat) << "along the leaning tool it would go through one";
+  parameters.bin.inner_size.y() = 0.220F;
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none) << "further away it passes over the rim";
+}
+
+TEST_F(Planner, WayOutMayBeStraightUp) {
+  part.grasps = {{turn(Vector3::UnitX(), 3.14159265F) * turn(Vector3::UnitX(), 0.5F), 0.040F, 1, 1}};
+  parameters.collision.maximum_unseen = 1.0F;
+  add_block(0.0F, 0.0F, 0.585F);
+  const PickResult alone = choose();
+  ASSERT_TRUE(alone.found);
+  // What hangs above the palm is not in the way of a tool that leaves leaning.
+  const bool leaves_to_positive = (alone.best.robot_from_approach.translation.y() > 0.0F);
+  scene.boxes.push_back({shift(0.0F, leaves_to_positive ? 0.045F : -0.045F, 0.40F), Vector3(0.012F, 0.015F, 0.002F)});
+  ASSERT_EQ(reason_of(choose()), GraspRejection::none);
+  parameters.retreat.direction = RetreatDirection::up;
+  parameters.retreat.distance = 0.150F;
+  EXPECT_EQ(reason_of(choose()), GraspRejection::retreat);
+}
+
+TEST_F(Planner, SidesOfOtherInstancesThatWereNotSeenAreInTheWay) {
+  part.grasps.resize(1);
+  add_block(0.0F, 0.0F, 0.585F);
+  ASSERT_EQ(reason_of(choose()), GraspRejection::none);
+  // An instance whose surface the sensor did not measure: it stands in no pixel of the frame.
+  Instance unseen;
+  unseen.camera_from_part = shift(0.040F, 0.0F, 0.585F) * turn(Vector3::UnitX(), 3.14159265F);
+  instances.push_back(unseen);
+  EXPECT_EQ(reason_of(choose()), GraspRejection::neighbour);
+  instances.back().camera_from_part.translation.x() = 0.060F;
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none);
+}
+
+TEST_F(Planner, StaysOutOfWhatNobodyHasSeen) {
+  part.grasps.resize(1);
+  add_block(0.0F, 0.0F, 0.585F);
+  ASSERT_EQ(reason_of(choose()), GraspRejection::none);
+  // A plate high above hides one jaw's place without being in its way.
+  scene.boxes.push_back({shift(0.012F, 0.0F, 0.30F), Vector3(0.006F, 0.012F, 0.001F)});
+  EXPECT_EQ(reason_of(choose()), GraspRejection::unseen);
+  parameters.collision.maximum_unseen = 1.0F;
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none);
+}
+
+TEST_F(Planner, JawsCatchNothingElseWhenTheyClose) {
+  part.grasps = {{turn(Vector3::UnitX(), 3.14159265F), 0.070F, 1, 1, GraspKind::parallel, 0.070F, 0.030F}};
+  add_block(0.0F, 0.0F, 0.585F);
+  ASSERT_EQ(reason_of(choose()), GraspRejection::none);
+  scene.boxes.push_back({shift(0.024F, 0.0F, 0.585F), Vector3(0.004F, 0.006F, 0.015F)});
+  EXPECT_EQ(reason_of(choose()), GraspRejection::closing);
+}
+
+TEST_F(Planner, OpensAsWideAsTheNeighboursLetIt) {
+  part.grasps = {{turn(Vector3::UnitX(), 3.14159265F), 0.060F, 1, 1, GraspKind::parallel, 0.034F, 0.030F}};
+  add_block(0.0F, 0.0F, 0.585F);
+  EXPECT_FLOAT_EQ(choose().best.opening, 0.060F);
+  add_obstacle(0.046F, 0.0F, 0.585F);
+  EXPECT_FLOAT_EQ(choose().best.opening, 0.047F);
+  add_obstacle(-0.041F, 0.0F, 0.585F);
+  EXPECT_FLOAT_EQ(choose().best.opening, 0.034F);
+}
+
+TEST_F(Planner, OrdersByStrategy) {
+  add_block(-0.10F, 0.0F, 0.585F, 0.0F, 0.95F);
+  add_block(0.10F, 0.0F, 0.575F, 0.0F, 0.50F);
+  add_block(-0.02F, -0.05F, 0.585F, 0.0F, 0.60F);
+  add_block(-0.02F, 0.06F, 0.585F, 0.0F, 0.70F);
+  const auto first = [&] { return choose().best.instance; };
+  parameters.weights.height = 0.0F;
+  EXPECT_EQ(first(), 0U) << "the best score";
+  parameters.order.order = PickOrder::top_first;
+  EXPECT_EQ(first(), 1U);
+  parameters.order.step = 0.050F;
+  EXPECT_EQ(first(), 0U) << "10 mm are less than a step";
+  parameters.order.step = 0.005F;
+  parameters.order.order = PickOrder::nearest;
+  parameters.order.point = Vector3(-0.02F, -0.05F, 0.5F);
+  EXPECT_EQ(first(), 2U);
+  parameters.order.order = PickOrder::fewest_neighbours;
+  EXPECT_EQ(first(), 1U);
+}
+
+TEST_F(Planner, PlacesThatFailedAreAvoidedForSoManyRuns) {
+  add_block(-0.08F, 0.0F, 0.585F, 0.0F, 0.95F);
+  add_block(0.08F, 0.0F, 0.585F, 0.0F, 0.90F);
+  std::array<AvoidedPlace, AvoidList::capacity> memory;
+  AvoidList list(memory);
+  ASSERT_EQ(choose().best.instance, 0U);
+  list.add(choose().best.robot_from_tool.translation, parameters.avoid.radius, 2);
+  for (int run = 0; run < 2; ++run) {
+    avoided.assign(list.places().begin(), list.places().end());
+    const PickResult result = choose();
+    EXPECT_EQ(result.best.instance, 1U);
+    EXPECT_EQ(result.reasons[0], GraspRejection::avoided);
+    list.age();
+  }
+  avoided.assign(list.places().begin(), list.places().end());
+  EXPECT_EQ(choose().best.instance, 0U);
+}
+
+TEST_F(Planner, ChecksAreSharedAndBounded) {
+  for (const float x : {-0.09F, 0.0F, 0.09F}) {
+    add_block(x, 0.0F, 0.585F, 0.0F, 0.9F);
+    add_obstacle(x + 0.030F, 0.0F, 0.585F);
+  }
+  carve({512, 100, 3});
+  const PickResult few = choose();
+  EXPECT_EQ(few.checks, 3U);
+  EXPECT_NE(few.flags & flag_grasps_cut, 0U);
+  EXPECT_EQ(few.pickable, 0U) << "the first grasp of each is blocked, and there is no check left for the second";
+  ASSERT_EQ(few.rejected.size(), 3U);
+  EXPECT_EQ(few.rejected[2].instance, 2U);
+  carve({512, 100, 6});
+  const PickResult enough = choose();
+  EXPECT_EQ(enough.pickable, 3U);
+  EXPECT_EQ(enough.flags & flag_grasps_cut, 0U);
+}
+
+TEST(AvoidList, NearestToItsEndGivesWayWhenFull) {
+  std::array<AvoidedPlace, 3> memory;
+  AvoidList list(memory);
+  list.add(Vector3(0.0F, 0.0F, 0.0F), 0.01F, 5);
+  list.add(Vector3(0.1F, 0.0F, 0.0F), 0.01F, 2);
+  list.add(Vector3(0.2F, 0.0F, 0.0F), 0.01F, 4);
+  list.add(Vector3(0.001F, 0.0F, 0.0F), 0.01F, 6);
+  EXPECT_EQ(list.places().size(), 3U) << "a place near a known one renews it";
+  list.add(Vector3(0.3F, 0.0F, 0.0F), 0.01F, 5);
+  EXPECT_FALSE(is_avoided(list.places(), Vector3(0.1F, 0.0F, 0.0F), 0.01F));
+  EXPECT_TRUE(is_avoided(list.places(), Vector3(0.3F, 0.0F, 0.0F), 0.01F));
+  for (int run = 0; run < 4; ++run) list.age();
+  EXPECT_EQ(list.places().size(), 2U);
 }
 
 TEST_F(Planner, PartWithoutGraspsIsReportedAndNotPicked) {

@@ -75,12 +75,25 @@ TEST_F(DetectionPicture, PickIsMarkedAndLegendStandsBelow) {
   EXPECT_GT(yellow(with), 500);
 }
 
+TEST_F(DetectionPicture, RejectedGraspsAreRed) {
+  const std::array<DrawnInstance, 1> instances{square_at(0, 0.48F)};
+  DrawnGrasp grasp;
+  grasp.camera_from_tool.translation = Vector3(0.02F, 0.0F, 0.48F);
+  grasp.pieces = {{Vector3(-0.01F, -0.01F, -0.05F), Vector3(0.01F, 0.01F, 0.0F)}};
+  const auto red = [](const Picture& picture) {
+    return std::count_if(picture.pixels.begin(), picture.pixels.end(),
+                         [](Colour c) { return c.r > 240 && c.g > 50 && c.g < 70 && c.b > 80 && c.b < 100; });
+  };
+  EXPECT_EQ(red(draw_detections(frame_, instances, std::nullopt, "")), 0);
+  EXPECT_GT(red(draw_detections(frame_, instances, std::nullopt, "", {&grasp, 1})), 100);
+}
+
 TEST_F(DetectionPicture, OddInputIsHarmless) {
   std::vector<DrawnInstance> instances(60, square_at(5.0F, 0.48F));
   instances[1].camera_from_part.translation = Vector3(0, 0, -1);
   instances[2].camera_from_part.translation = Vector3::Constant(std::nanf(""));
   instances[3].mesh = {};
-  const Picture picture = draw_detections(frame_, instances, DrawnPick{99, {}, {}, 0}, "");
+  const Picture picture = draw_detections(frame_, instances, DrawnPick{99, {}, {}, 0, {}}, "");
   EXPECT_GT(picture.width, 0);
   std::fill(depth_.begin(), depth_.end(), 0.0F);
   EXPECT_GT(draw_detections(frame_, {}, std::nullopt, "nothing measured").width, 0);

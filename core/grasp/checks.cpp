@@ -1,0 +1,122 @@
+#include "core/grasp/checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "core/grasp/collision.hpp"
+#include "core/grasp/neighbours.hpp"
+
+namespace graspd {
+namespace {
+
+/// Points of the held part that are looked at on the way out.
+constexpr std::size_t carried_points = 128;
+
+/// A grasp of one instance, on its way in.
+struct Attempt {
+  const GraspSurroundings& around;
+  const GraspParameters& parameters;
+  const Bank& bank;
+  const PartGrasp& grasp;
+  const Tool& tool;
+  std::size_t instance;
+  RigidTransform camera_from_tool;
+  RigidTransform camera_from_part;
+  HeldPart part;
+};
+
+/// On the way in: the gripper comes from `approach_distance` behind, which is the same as leaving backwards.
+Sweep way_in(const Attempt& attempt, const Gripper& gripper) {
+  return {attempt.camera_from_tool, &gripper, Vector3(0.0F, 0.0F, -attempt.parameters.approach_distance)};
+}
+
+/// The way out, camera frame, metres.
+Vector3 retreat_motion(const Attempt& attempt) {
+  const RetreatParameters& retreat = attempt.parameters.retreat;
+  const Vector3 direction = retreat.direction == RetreatDirection::up
+                                ? attempt.around.up
+                                : Vector3(-attempt.camera_from_tool.rotation.col(2));
+  return retreat.distance * direction;
+}
+
+/// Whether jaws that close catch anything but the part.
+bool closing_collides(const Attempt& attempt, float opening) {
+  const Gripper jaws = closing_jaws(attempt.tool, opening, attempt.grasp.held_width);
+  CollisionParameters touching = attempt.parameters.collision;
+  touching.minimum_clearance = 0.0F;
+  const Sweep closing{attempt.camera_from_tool, &jaws, Vector3::Zero()};
+  return sweep_collides(*attempt.around.cloud, closing, attempt.part, touching) ||
+         sweep_meets_instances(attempt.around.instances, attempt.around.banks, attempt.instance, closing, 0.0F);
+}
+
+bool retreat_collides(const Attempt& attempt) {
+  const Vector3 motion = retreat_motion(attempt);
+  const Gripper closed = closed_gripper(attempt.tool, attempt.grasp.held_width);
+  const Sweep sweep{attempt.camera_from_tool, &closed, attempt.camera_from_tool.rotation.transpose() * motion};
+  const CollisionParameters& collision = attempt.parameters.collision;
+  if (sweep_meets_walls(attempt.around.walls, sweep, collision.minimum_clearance)) return true;
+  if (sweep_collides(*attempt.around.cloud, sweep, attempt.part, collision)) return true;
+  if (attempt.around.walls.count == 0) return false;
+  std::array<Vector3, carried_points> carried;
+  const std::size_t count = std::min(carried.size(), attempt.bank.surface.size());
+  for (std::size_t i = 0; i < count; ++i) carried[i] = attempt.bank.surface[i].position;
+  return carried_meets_walls(attempt.around.walls, attempt.camera_from_part,
+                             {attempt.bank.part->box_min, attempt.bank.part->box_max}, motion,
+                             attempt.tool.contact_margin, {carried.data(), count});
+}
+
+/// The first test that fails with the jaws this far open.
+GraspRejection test_opening(const Attempt& attempt, float opening) {
+  const Gripper gripper = open_gripper(attempt.tool, opening);
+  const Sweep sweep = way_in(attempt, gripper);
+  const CollisionParameters& collision = attempt.parameters.collision;
+  if (sweep_meets_walls(attempt.around.walls, sweep, collision.minimum_clearance)) return GraspRejection::wall;
+  if (sweep_collides(*attempt.around.cloud, sweep, attempt.part, collision)) return GraspRejection::collision;
+  if (collision.maximum_unseen < 1.0F && unseen_share(*attempt.around.cloud, sweep) > collision.maximum_unseen) {
+    return GraspRejection::unseen;
+  }
+  if (sweep_meets_instances(attempt.around.instances, attempt.around.banks, attempt.instance, sweep,
+                            collision.minimum_clearance)) {
+    return GraspRejection::neighbour;
+  }
+  if (closing_collides(attempt, opening)) return GraspRejection::closing;
+  return retreat_collides(attempt) ? GraspRejection::retreat : GraspRejection::none;
+}
+
+}  // namespace
+
+GraspCheck check_grasp(const GraspSurroundings& around, std::size_t instance, const GraspCandidate& candidate,
+                       const GraspParameters& parameters) {
+  const Bank& bank = around.banks[around.instances[instance].bank];
+  const PartGrasp& grasp = bank.grasps[candidate.grasp];
+  const Tool& tool = parameters.tools.tools[candidate.tool];
+  const RigidTransform camera_from_tool = around.camera_from_robot * candidate.robot_from_tool;
+  const RigidTransform camera_from_part = around.camera_from_robot * candidate.robot_from_part;
+  const Attempt attempt{around,
+                        parameters,
+                        bank,
+                        grasp,
+                        tool,
+                        instance,
+                        camera_from_tool,
+                        camera_from_part,
+                        {inverse(camera_from_part) * camera_from_tool,
+                         grown({bank.part->box_min, bank.part->box_max}, tool.contact_margin)}};
+  const Openings openings = openings_of(tool, grasp);
+  GraspCheck check{GraspRejection::opening, 0.0F, 0.0F};
+  for (std::size_t i = 0; i < openings.count; ++i) {
+    const GraspRejection rejection = test_opening(attempt, openings.widths[i]);
+    if (furthest(check.reason, rejection) == rejection) {
+      check.reason = rejection;
+      check.opening = openings.widths[i];
+    }
+    if (rejection != GraspRejection::none) continue;
+    const Gripper gripper = open_gripper(tool, check.opening);
+    check.clearance = sweep_clearance(*around.cloud, way_in(attempt, gripper), attempt.part, parameters.collision);
+    break;
+  }
+  return check;
+}
+
+}  // namespace graspd

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/geometry/depth_frame.hpp"
+#include "core/grasp/box.hpp"
+#include "core/memory/arena.hpp"
+
+namespace graspd {
+
+/// A depth frame thinned to the spacing at which collisions are looked for, in tiles with bounds, so that a box
+/// which touches nothing is done with after a look at a few tiles.
+struct CloudMap {
+  static constexpr int tile_size = 8;  ///< Cells along each side.
+
+  Camera camera;  ///< Of the cells: the ray of cell (u, v) as Camera has it for pixels.
+  int tile_columns = 0;
+  std::span<float> depth;  ///< Metres along z, a cell each, row by row; 0: not measured.
+  std::span<Box> tiles;    ///< Bounds of the measured points, camera frame; empty ones have lower > upper.
+  std::span<float> depth_memory;
+  std::span<Box> tile_memory;
+};
+
+/// Carves the memory of a map of at most `cells` cells.
+[[nodiscard]] CloudMap carve_cloud_map(Arena& arena, std::uint32_t cells);
+
+/// Thins `frame` so that cells lie `spacing` metres apart at depth `reference_depth`, or as much further as the
+/// memory asks for. A cell holds the depth of its middle pixel, or, where that was not measured, of the measured one
+/// that comes next in the cell.
+void fill_cloud_map(const DepthFrame& frame, float spacing, float reference_depth, CloudMap& map);
+
+/// Cells first_u <= u <= last_u, first_v <= v <= last_v that can show a point of a box; empty when last < first.
+struct CellRange {
+  int first_u = 0;
+  int last_u = -1;
+  int first_v = 0;
+  int last_v = -1;
+  float nearest = 0;  ///< Depths of the box, metres.
+  float furthest = 0;
+};
+
+/// Where a posed box lies in the map.
+[[nodiscard]] CellRange cells_of(const Camera& camera, const RigidTransform& camera_from_box_frame, const Box& box);
+
+}  // namespace graspd

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "core/bank/bank.hpp"
+#include "core/detect/detections.hpp"
+#include "core/grasp/collision.hpp"
+
+namespace graspd {
+
+/// True when the gripper on its way comes as near as `clearance` (metres) to the surface of an instance other than
+/// number `held`: also to those of its sides that the sensor did not see. A surface is taken as the points of its
+/// bank, `points_each` of them at most.
+[[nodiscard]] bool sweep_meets_instances(std::span<const Instance> instances, std::span<const Bank> banks,
+                                         std::size_t held, const Sweep& sweep, float clearance,
+                                         std::size_t points_each = 512);
+
+/// How many other instances lie within `distance` metres of instance number `instance`, from bounding sphere to
+/// bounding sphere.
+[[nodiscard]] std::uint32_t count_neighbours(std::span<const Instance> instances, std::span<const Bank> banks,
+                                             std::size_t instance, float distance);
+
+}  // namespace graspd

@@ -1,0 +1,63 @@
+#include "core/grasp/walls.hpp"
+
+#include <algorithm>
+
+namespace graspd {
+
+BinWalls bin_walls(const BinParameters& bin, const Vector3& up, const RigidTransform& camera_from_robot) {
+  BinWalls result;
+  if (!bin.present) return result;
+  result.camera_from_bin = camera_from_robot * bin.robot_from_bin;
+  const Vector3 half = 0.5F * bin.inner_size;
+  const Vector3 outer = half + Vector3::Constant(bin.wall);
+  result.inside = {-half, half};
+  result.thickness = bin.wall;
+  const bool z_is_up = bin.robot_from_bin.rotation.col(2).dot(up) >= 0.0F;
+  const float rim_low = z_is_up ? -outer.z() : -half.z();
+  const float rim_high = z_is_up ? half.z() : outer.z();
+  for (const float side : {-1.0F, 1.0F}) {
+    const float near_x = side * half.x();
+    const float far_x = side * outer.x();
+    const float near_y = side * half.y();
+    const float far_y = side * outer.y();
+    result.walls[result.count++] = {{std::min(near_x, far_x), -outer.y(), rim_low},
+                                    {std::max(near_x, far_x), outer.y(), rim_high}};
+    result.walls[result.count++] = {{-outer.x(), std::min(near_y, far_y), rim_low},
+                                    {outer.x(), std::max(near_y, far_y), rim_high}};
+  }
+  result.walls[result.count++] = {{-outer.x(), -outer.y(), z_is_up ? -outer.z() : half.z()},
+                                  {outer.x(), outer.y(), z_is_up ? -half.z() : outer.z()}};
+  return result;
+}
+
+bool sweep_meets_walls(const BinWalls& walls, const Sweep& sweep, float clearance) {
+  if (walls.count == 0) return false;
+  const RigidTransform tool_from_bin = inverse(sweep.camera_from_tool) * walls.camera_from_bin;
+  return std::any_of(sweep.gripper->all().begin(), sweep.gripper->all().end(), [&](const GripperPiece& piece) {
+    const Box box = grown(piece.box, clearance);
+    return std::any_of(walls.all().begin(), walls.all().end(),
+                       [&](const Box& wall) { return sweep_meets_box(box, sweep.motion, tool_from_bin, wall); });
+  });
+}
+
+bool carried_meets_walls(const BinWalls& walls, const RigidTransform& camera_from_part, const Box& part_bounds,
+                         const Vector3& motion, float tolerance, std::span<const Vector3> points) {
+  if (walls.count == 0) return false;
+  const RigidTransform bin_from_part = inverse(walls.camera_from_bin) * camera_from_part;
+  const Vector3 way = walls.camera_from_bin.rotation.transpose() * motion;
+  const bool far_off = std::none_of(walls.all().begin(), walls.all().end(), [&](const Box& wall) {
+    const RigidTransform part_from_bin = inverse(bin_from_part);
+    return sweep_meets_box(part_bounds, bin_from_part.rotation.transpose() * way, part_from_bin, wall);
+  });
+  if (far_off) return false;
+  const float forgiven = std::min(tolerance, 0.4F * walls.thickness);
+  return std::any_of(points.begin(), points.end(), [&](const Vector3& point) {
+    const Vector3 start = bin_from_part * point;
+    return std::any_of(walls.all().begin(), walls.all().end(), [&](const Box& wall) {
+      // The point moves, the wall stands still: as if the wall came towards the point.
+      return sweeps_over(grown(wall, -forgiven), -way, start);
+    });
+  });
+}
+
+}  // namespace graspd

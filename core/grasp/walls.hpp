@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/grasp/collision.hpp"
+
+namespace graspd {
+
+/// The bin's four walls and its floor, as boxes in the bin's frame.
+struct BinWalls {
+  RigidTransform camera_from_bin;
+  Box inside;  ///< Bin frame.
+  std::array<Box, 5> walls;
+  std::size_t count = 0;  ///< 0: there is no bin.
+  float thickness = 0;
+
+  [[nodiscard]] std::span<const Box> all() const { return {walls.data(), count}; }
+};
+
+/// The walls of `bin`; its opening is on the side of its z axis that is nearer to `up` (robot frame).
+[[nodiscard]] BinWalls bin_walls(const BinParameters& bin, const Vector3& up, const RigidTransform& camera_from_robot);
+
+/// True when the gripper on its way comes as near to a wall as `clearance`, metres.
+[[nodiscard]] bool sweep_meets_walls(const BinWalls& walls, const Sweep& sweep, float clearance);
+
+/// True when one of `points` (part frame), carried by `motion` (metres, camera frame), passes through a wall, deeper
+/// than `tolerance`: the part may lean on a wall, and its pose has an error.
+[[nodiscard]] bool carried_meets_walls(const BinWalls& walls, const RigidTransform& camera_from_part,
+                                       const Box& part_bounds, const Vector3& motion, float tolerance,
+                                       std::span<const Vector3> points);
+
+}  // namespace graspd

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "core/grasp/pick.hpp"
+
+namespace graspd {
+
+/// The best pick and why the others fell, for a person: poses in millimetres and quaternions x, y, z, w.
+[[nodiscard]] std::string picks_as_text(const PickResult& result);
+
+/// The same as JSON; every pick, in the order to pick them.
+[[nodiscard]] nlohmann::ordered_json picks_as_json(const PickResult& result);
+
+}  // namespace graspd

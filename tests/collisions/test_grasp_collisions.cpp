@@ -1,0 +1,179 @@
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/narrowphase/collision.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "core/grasp/checks.hpp"
+#include "core/grasp/planner.hpp"
+#include "tests/collisions/pile_scene.hpp"
+
+namespace graspd {
+namespace {
+
+using SolidMesh = fcl::BVHModel<fcl::OBBRSSd>;
+
+fcl::Transform3d as_fcl(const RigidTransform& pose) {
+  fcl::Transform3d result = fcl::Transform3d::Identity();
+  result.linear() = pose.rotation.cast<double>();
+  result.translation() = pose.translation.cast<double>();
+  return result;
+}
+
+std::shared_ptr<SolidMesh> solid_of(const Mesh& mesh) {
+  std::vector<fcl::Vector3d> vertices;
+  std::vector<fcl::Triangle> triangles;
+  for (const Vector3& vertex : mesh.vertices) vertices.push_back(vertex.cast<double>());
+  for (const Triangle& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  auto solid = std::make_shared<SolidMesh>();
+  solid->beginModel();
+  solid->addSubModel(vertices, triangles);
+  solid->endModel();
+  return solid;
+}
+
+/// The truth about a scene: every part but one, and the bin, against boxes.
+class Truth {
+ public:
+  Truth(const HeldShape& part, const PileScene& scene)
+      : scene_(scene),
+        solid_(solid_of(part.mesh)),
+        walls_(bin_walls(scene.parameters.bin, Vector3::UnitZ(), inverse(scene.parameters.robot_from_camera))) {}
+
+  /// Whether one of the pieces on its way touches anything but the part at `held`.
+  [[nodiscard]] bool touches(const Gripper& gripper, const RigidTransform& camera_from_tool, const Vector3& motion,
+                             const RigidTransform& held) const {
+    for (const GripperPiece& piece : gripper.all()) {
+      const Box swept = swept_bounds(piece.box, motion);
+      const Vector3 size = swept.upper - swept.lower;
+      const auto box = std::make_shared<fcl::Boxd>(size.cast<double>());
+      const fcl::CollisionObjectd moving(
+          box, as_fcl(camera_from_tool * RigidTransform{Matrix3::Identity(), swept.centre()}));
+      for (const Instance& instance : scene_.all) {
+        if (instance.camera_from_part.translation == held.translation) continue;
+        if (meets(moving, fcl::CollisionObjectd(solid_, as_fcl(instance.camera_from_part)))) return true;
+      }
+      for (const Box& wall : walls_.all()) {
+        const auto side = std::make_shared<fcl::Boxd>((wall.upper - wall.lower).cast<double>());
+        const RigidTransform bin_from_wall{Matrix3::Identity(), wall.centre()};
+        if (meets(moving, fcl::CollisionObjectd(side, as_fcl(walls_.camera_from_bin * bin_from_wall)))) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Whether a grasp of the part at `held` is free of collisions: on its way in, when it closes, on its way out.
+  [[nodiscard]] bool is_free(const Tool& tool, const PartGrasp& grasp, float opening,
+                             const RigidTransform& camera_from_tool, const RigidTransform& held) const {
+    const Vector3 way(0.0F, 0.0F, -scene_.parameters.approach_distance);
+    return !touches(open_gripper(tool, opening), camera_from_tool, way, held) &&
+           !touches(closing_jaws(tool, opening, grasp.held_width), camera_from_tool, Vector3::Zero(), held) &&
+           !touches(closed_gripper(tool, grasp.held_width), camera_from_tool, way, held);
+  }
+
+ private:
+  static bool meets(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b) {
+    const fcl::CollisionRequestd request;
+    fcl::CollisionResultd result;
+    return fcl::collide(&a, &b, request, result) > 0;
+  }
+
+  const PileScene& scene_;
+  std::shared_ptr<SolidMesh> solid_;
+  BinWalls walls_;
+};
+
+/// Whether any grasp of any part is free, with any opening: what a planner that knows everything could do.
+bool any_free_grasp(const HeldShape& part, const PileScene& scene, const Truth& truth) {
+  const Bank bank = part.bank();
+  const RigidTransform camera_from_robot = inverse(scene.parameters.robot_from_camera);
+  std::vector<GraspCandidate> memory(1024);
+  FixedVector<GraspCandidate> candidates(memory);
+  for (const Instance& instance : scene.all) {
+    const GraspTarget target{scene.parameters.robot_from_camera * instance.camera_from_part, 1.0F, 0.0F};
+    static_cast<void>(grasp_candidates(bank, target, scene.parameters, {}, candidates));
+    for (const GraspCandidate& candidate : candidates) {
+      const Tool& tool = scene.parameters.tools.tools[candidate.tool];
+      const Openings openings = openings_of(tool, part.grasps[candidate.grasp]);
+      for (std::size_t i = 0; i < openings.count; ++i) {
+        if (truth.is_free(tool, part.grasps[candidate.grasp], openings.widths[i],
+                          camera_from_robot * candidate.robot_from_tool, instance.camera_from_part)) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+struct Tally {
+  int frames = 0;
+  int graspable = 0;  ///< Frames with a free grasp.
+  int answered = 0;   ///< Those of them that yielded a pick.
+  int first_picks = 0;
+  int first_collisions = 0;
+  int picks = 0;
+  int collisions = 0;
+};
+
+void try_pile(const HeldShape& part, PileScene& scene, GraspWorkspace& workspace, Tally& tally) {
+  const Bank bank = part.bank();
+  Detections detections;
+  detections.instances = scene.detected;
+  const PickResult result = choose_pick(scene.frame(), detections, {&bank, 1}, scene.parameters, workspace);
+  const Truth truth(part, scene);
+  const RigidTransform camera_from_robot = inverse(scene.parameters.robot_from_camera);
+  ++tally.frames;
+  for (std::size_t i = 0; i < result.picks.size(); ++i) {
+    const Pick& pick = result.picks[i];
+    const PartGrasp& grasp = part.grasps[pick.grasp - 1];
+    const bool free =
+        truth.is_free(scene.parameters.tools.tools[0], grasp, pick.opening, camera_from_robot * pick.robot_from_tool,
+                      scene.detected[pick.instance].camera_from_part);
+    ++tally.picks;
+    tally.collisions += free ? 0 : 1;
+    tally.first_picks += i == 0 ? 1 : 0;
+    tally.first_collisions += i == 0 && !free ? 1 : 0;
+  }
+  if (!result.found && !any_free_grasp(part, scene, truth)) return;
+  ++tally.graspable;
+  tally.answered += result.found ? 1 : 0;
+}
+
+TEST(GraspCollisions, NoChosenGraspCollidesAndFewFramesYieldNone) {
+  constexpr std::uint64_t piles = 8;
+  const std::vector<HeldShape> parts{held_block(), held_bar(), held_bracket()};
+  const PileBin bin{0.110F, 0.090F};
+  const Camera camera{640, 480, 900.0F, 900.0F, 319.5F, 239.5F};
+  Arena measuring = Arena::measuring();
+  static_cast<void>(carve_grasp_workspace(measuring, {}));
+  std::vector<std::byte> bytes(measuring.used() + Arena::alignment);
+  Arena arena({bytes.data(), bytes.size()});
+  GraspWorkspace workspace = carve_grasp_workspace(arena, {});
+
+  Tally tally;
+  for (const HeldShape& part : parts) {
+    for (std::uint64_t seed = 1; seed <= piles; ++seed) {
+      const auto strain = static_cast<SensorStrain>(seed % 3);
+      PileScene scene = pile_scene(part, 6 + 2 * (seed % 6), bin, camera, strain, seed);
+      try_pile(part, scene, workspace, tally);
+    }
+  }
+  RecordProperty("frames", tally.frames);
+  RecordProperty("graspable", tally.graspable);
+  RecordProperty("answered", tally.answered);
+  RecordProperty("picks", tally.picks);
+  RecordProperty("collisions", tally.collisions);
+  std::printf(
+      "%d frames, %d with a free grasp, %d of them answered; %d first picks, %d collide; %d picks, %d collide\n",
+      tally.frames, tally.graspable, tally.answered, tally.first_picks, tally.first_collisions, tally.picks,
+      tally.collisions);
+  EXPECT_GT(tally.graspable, tally.frames / 2);
+  EXPECT_EQ(tally.first_collisions, 0);
+  EXPECT_EQ(tally.collisions, 0);
+  EXPECT_GE(tally.answered, 0.95 * tally.graspable);
+}
+
+}  // namespace
+}  // namespace graspd
