@@ -96,6 +96,9 @@ void read_bin_section(SettingsTable table, BinParameters& bin) {
   table.read("size", bin.inner_size, metres_per_millimetre);
   table.read("turn", turn, -360, 360, radians_per_degree);
   table.read("wall", bin.wall, 1, 1000, metres_per_millimetre);
+  table.read("fitted", bin.fitted);
+  table.read("search", bin.search, 0, 200, metres_per_millimetre);
+  table.read("search_turn", bin.search_turn, 0, 20, radians_per_degree);
   if (table.has("size") && !(bin.inner_size.minCoeff() > 0)) {
     table.complain("size", "must hold three lengths greater than 0");
   }

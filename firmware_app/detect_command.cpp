@@ -118,8 +118,9 @@ Status detect_frame(const DetectOptions& options) {
 
   // A recording holds what was detected, not what a gripper could do with it.
   const PickResult* reported_picks = options.replayable ? nullptr : &picks;
-  const DetectionReport report{file.name, &frame,           banks.value().banks, &detections,
-                               seconds,   options.rejected, options.replayable,  reported_picks};
+  const DetectionReport report{file.name,          &frame,         banks.value().banks,
+                               &detections,        seconds,        options.rejected,
+                               options.replayable, reported_picks, &grasp_parameters};
   if (options.json == "-") {
     std::fputs(report_as_json(report).c_str(), stdout);
   } else {

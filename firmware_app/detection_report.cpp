@@ -137,7 +137,7 @@ std::string report_as_text(const DetectionReport& report) {
   append_rejections(text, detections);
   if (detections.flags != 0) text += "cut        " + flag_names(detections.flags) + '\n';
   append(text, "found      %zu instances\n", detections.instances.size());
-  if (report.picks != nullptr) text += picks_as_text(*report.picks);
+  if (report.picks != nullptr) text += picks_as_text(*report.picks, *report.grasp);
   if (!detections.instances.empty()) {
     text += '\n';
     append_poses(text, report);

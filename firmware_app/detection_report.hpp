@@ -8,6 +8,7 @@
 
 #include "core/bank/bank.hpp"
 #include "core/detect/detections.hpp"
+#include "core/grasp/parameters.hpp"
 #include "core/grasp/pick.hpp"
 #include "drivers/files/detection_picture.hpp"
 
@@ -19,10 +20,11 @@ struct DetectionReport {
   const DepthFrame* frame = nullptr;
   std::span<const Bank> banks;
   const Detections* detections = nullptr;
-  double seconds = 0;                 ///< From depth in memory to verified instances.
-  bool with_rejected = false;         ///< List every hypothesis that was judged and rejected, too.
-  bool replayable = false;            ///< JSON without the frame's name and times, which differ from run to run.
-  const PickResult* picks = nullptr;  ///< What the gripper could do; null: not asked.
+  double seconds = 0;                      ///< From depth in memory to verified instances.
+  bool with_rejected = false;              ///< List every hypothesis that was judged and rejected, too.
+  bool replayable = false;                 ///< JSON without the frame's name and times, which differ from run to run.
+  const PickResult* picks = nullptr;       ///< What the gripper could do; null: not asked.
+  const GraspParameters* grasp = nullptr;  ///< What the picks were chosen by; null only without `picks`.
 };
 
 /// Tables for a person: instances with poses (millimetres) and evidence, rejections by reason, times.

@@ -1,6 +1,7 @@
 #include "firmware_app/pick_report.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -22,11 +23,36 @@ std::array<double, 7> pose_values(const RigidTransform& pose) {
           wide(turn.y()),  wide(turn.z()),  wide(turn.w())};
 }
 
+/// Where the bin was found, from where the configuration has it.
+std::string bin_as_text(const BinFit& fit, const BinParameters& bin) {
+  std::array<char, 400> line{};
+  const std::array<double, 4> measured{100 * wide(fit.measured[0]), 100 * wide(fit.measured[1]),
+                                       100 * wide(fit.measured[2]), 100 * wide(fit.measured[3])};
+  if (!fit.found) {
+    std::snprintf(
+        line.data(), line.size(),
+        "bin        not found near its place; of its walls were measured: x %.0f %% and %.0f %%, y %.0f %% and "
+        "%.0f %%\n",
+        measured[0], measured[1], measured[2], measured[3]);
+    return line.data();
+  }
+  const RigidTransform moved = inverse(bin.robot_from_bin) * fit.robot_from_bin;
+  std::snprintf(
+      line.data(), line.size(),
+      "bin        %.1f mm along x, %.1f mm along y and %.1f degrees off its place; of its walls were measured: x "
+      "%.0f %% and %.0f %%, y %.0f %% and %.0f %%; residual %.2f mm\n",
+      wide(moved.translation.x()) * 1000, wide(moved.translation.y()) * 1000,
+      wide(std::atan2(moved.rotation(1, 0), moved.rotation(0, 0))) * degrees, measured[0], measured[1], measured[2],
+      measured[3], wide(fit.residual) * 1000);
+  return line.data();
+}
+
 }  // namespace
 
-std::string picks_as_text(const PickResult& result) {
+std::string picks_as_text(const PickResult& result, const GraspParameters& parameters) {
   std::string text;
   std::array<char, 400> line{};
+  if (parameters.bin.present && parameters.bin.fitted) text += bin_as_text(result.bin, parameters.bin);
   std::snprintf(line.data(), line.size(), "pickable   %u instances", result.pickable);
   text += line.data();
   const char* separator = "; not: ";

@@ -3,12 +3,14 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "core/grasp/parameters.hpp"
 #include "core/grasp/pick.hpp"
 
 namespace graspd {
 
-/// The best pick and why the others fell, for a person: poses in millimetres and quaternions x, y, z, w.
-[[nodiscard]] std::string picks_as_text(const PickResult& result);
+/// The best pick, why the others fell and where the bin stands, for a person: poses in millimetres and quaternions x,
+/// y, z, w.
+[[nodiscard]] std::string picks_as_text(const PickResult& result, const GraspParameters& parameters);
 
 /// The same as JSON; every pick, in the order to pick them.
 [[nodiscard]] nlohmann::ordered_json picks_as_json(const PickResult& result);

@@ -33,6 +33,9 @@ struct BinParameters {
   RigidTransform robot_from_bin;         ///< Its frame: origin in the middle of the inside, z upright (up or down).
   Vector3 inner_size = Vector3::Zero();  ///< Metres.
   float wall = 0.010F;                   ///< Thickness of walls and floor, metres.
+  bool fitted = false;                   ///< The place is rough: look in each frame where the bin stands.
+  float search = 0.040F;                 ///< When fitted: how far off it may be along x and y, metres, at most 0.2.
+  float search_turn = 0.17453293F;       ///< The same for the turn about z, radians.
 };
 
 /// How the tool leaves with the part.

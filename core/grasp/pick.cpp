@@ -30,6 +30,8 @@ const char* grasp_rejection_name(GraspRejection rejection) {
       return "closing";
     case GraspRejection::retreat:
       return "retreat";
+    case GraspRejection::no_bin:
+      return "no bin";
   }
   return "unknown";
 }

@@ -26,8 +26,9 @@ enum class GraspRejection : std::uint8_t {
   neighbour,  ///< On its way in the gripper would touch another instance, where the sensor did not see it.
   closing,    ///< Closing, the jaws would catch something that is not the part.
   retreat,    ///< On the way out the gripper would touch something, or the held part the bin.
+  no_bin,     ///< The bin was to be found in the frame and was not: nobody knows where its walls are.
 };
-inline constexpr std::size_t grasp_rejection_count = 13;
+inline constexpr std::size_t grasp_rejection_count = 14;
 
 /// A name for logs and tables, in lower case.
 [[nodiscard]] const char* grasp_rejection_name(GraspRejection rejection);
@@ -64,6 +65,15 @@ enum PickFlag : std::uint32_t {
   flag_picks_cut = 1U << 1U,   ///< More instances than the workspace holds: those with the lowest scores went.
 };
 
+/// Where the bin stands in one frame.
+struct BinFit {
+  bool found = false;
+  RigidTransform robot_from_bin;  ///< Meaningful only when found.
+  /// Share of the length of each wall (at lower x, upper x, lower y, upper y) along which it was measured.
+  std::array<float, 4> measured{};
+  float residual = 0;  ///< Metres: root mean square of what the measured points of the inner faces disagree by.
+};
+
 /// The outcome of one choice, in memory of the workspace: valid until the next one.
 struct PickResult {
   bool found = false;
@@ -72,6 +82,7 @@ struct PickResult {
   std::span<const GraspRejection> reasons;  ///< One for each instance; `none` for the pickable ones.
   std::span<const RejectedGrasp> rejected;  ///< Grasps that failed when they were looked up in the frame; as many as
                                             ///< the workspace holds.
+  BinFit bin;                               ///< Meaningful only with BinParameters::fitted.
   std::uint32_t pickable = 0;               ///< Instances with a pick.
   std::uint32_t checks = 0;                 ///< Grasps that were looked up in the frame.
   std::array<std::uint32_t, grasp_rejection_count> rejections{};  ///< Instances by reason.

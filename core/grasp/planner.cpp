@@ -110,10 +110,15 @@ PickResult choose_pick(const DepthFrame& frame, const Detections& detections, st
 
   const Vector3 up = up_direction(parameters);
   const RigidTransform camera_from_robot = inverse(parameters.robot_from_camera);
+  BinParameters bin = parameters.bin;
+  const bool looks_for_bin = bin.present && bin.fitted;
+  if (looks_for_bin && count > 0) {
+    result.bin = fit_bin(workspace.cloud, bin, up, parameters.robot_from_camera, workspace.wall_points);
+    bin.robot_from_bin = result.bin.robot_from_bin;
+  }
   // Those that the workspace cuts are in the way all the same.
-  const GraspSurroundings around{&workspace.cloud,     bin_walls(parameters.bin, up, camera_from_robot),
-                                 detections.instances, banks,
-                                 camera_from_robot,    camera_from_robot.rotation * up};
+  const GraspSurroundings around{&workspace.cloud,  bin_walls(bin, up, camera_from_robot), detections.instances, banks,
+                                 camera_from_robot, camera_from_robot.rotation * up};
   float highest = -std::numeric_limits<float>::max();
   for (const Instance& instance : instances) {
     highest = std::max(highest, height_of(instance, banks, parameters, up));
@@ -125,8 +130,12 @@ PickResult choose_pick(const DepthFrame& frame, const Detections& detections, st
                              highest - height_of(instance, banks, parameters, up)};
     workspace.ranks.push_back(order_rank(instances, banks, i, target.drop, parameters));
     Search search;
-    search.reason = grasp_candidates(banks[instance.bank], target, parameters, avoided, workspace.candidates);
-    if (workspace.candidates.dropped() > 0) result.flags |= flag_grasps_cut;
+    if (looks_for_bin && !result.bin.found) {
+      search.reason = GraspRejection::no_bin;
+    } else {
+      search.reason = grasp_candidates(banks[instance.bank], target, parameters, avoided, workspace.candidates);
+      if (workspace.candidates.dropped() > 0) result.flags |= flag_grasps_cut;
+    }
     if (search.reason == GraspRejection::none) {
       const auto share = static_cast<std::uint32_t>(checks_left / (count - i));
       search = best_free(around, i, target, parameters, share, workspace);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/grasp/bin_fit.hpp"
 #include "core/grasp/candidates.hpp"
 #include "core/grasp/cloud_map.hpp"
 #include "core/grasp/parameters.hpp"
@@ -18,6 +19,7 @@ struct GraspWorkspace {
   FixedVector<std::int32_t> ranks;  ///< order_rank of each instance.
   FixedVector<RejectedGrasp> rejected;
   CloudMap cloud;
+  FixedVector<WallPoint> wall_points;
 };
 
 /// Carves the memory of a choice.

@@ -101,6 +101,8 @@ ResultReason result_reason(GraspRejection rejection) {
       return ResultReason::closing;
     case GraspRejection::retreat:
       return ResultReason::retreat;
+    case GraspRejection::no_bin:
+      return ResultReason::no_bin;
   }
   return ResultReason::none;
 }

@@ -99,35 +99,26 @@ enum class ResultReason : std::uint16_t {
   neighbour = 110,
   closing = 111,
   retreat = 112,
+  no_bin = 113,
 };
 
 struct ResultReasonEntry {
   ResultReason reason;
   std::string_view name;
 };
-inline constexpr std::array<ResultReasonEntry, 22> result_reason_table{{
-    {ResultReason::none, "none"},
-    {ResultReason::weak, "weak"},
-    {ResultReason::overlap, "overlap"},
-    {ResultReason::boundary, "boundary"},
-    {ResultReason::edge, "edge"},
-    {ResultReason::below_plane, "below_plane"},
-    {ResultReason::floating, "floating"},
-    {ResultReason::intersecting, "intersecting"},
-    {ResultReason::duplicate, "duplicate"},
-    {ResultReason::score, "score"},
-    {ResultReason::no_grasp, "no_grasp"},
-    {ResultReason::tilt, "tilt"},
-    {ResultReason::reach, "reach"},
-    {ResultReason::collision, "collision"},
-    {ResultReason::opening, "opening"},
-    {ResultReason::tool, "tool"},
-    {ResultReason::avoided, "avoided"},
-    {ResultReason::wall, "wall"},
-    {ResultReason::unseen, "unseen"},
-    {ResultReason::neighbour, "neighbour"},
-    {ResultReason::closing, "closing"},
-    {ResultReason::retreat, "retreat"},
+inline constexpr std::array<ResultReasonEntry, 23> result_reason_table{{
+    {ResultReason::none, "none"},           {ResultReason::weak, "weak"},
+    {ResultReason::overlap, "overlap"},     {ResultReason::boundary, "boundary"},
+    {ResultReason::edge, "edge"},           {ResultReason::below_plane, "below_plane"},
+    {ResultReason::floating, "floating"},   {ResultReason::intersecting, "intersecting"},
+    {ResultReason::duplicate, "duplicate"}, {ResultReason::score, "score"},
+    {ResultReason::no_grasp, "no_grasp"},   {ResultReason::tilt, "tilt"},
+    {ResultReason::reach, "reach"},         {ResultReason::collision, "collision"},
+    {ResultReason::opening, "opening"},     {ResultReason::tool, "tool"},
+    {ResultReason::avoided, "avoided"},     {ResultReason::wall, "wall"},
+    {ResultReason::unseen, "unseen"},       {ResultReason::neighbour, "neighbour"},
+    {ResultReason::closing, "closing"},     {ResultReason::retreat, "retreat"},
+    {ResultReason::no_bin, "no_bin"},
 }};
 
 /// A name for logs and tables; "unknown" for a number that is not in the table.

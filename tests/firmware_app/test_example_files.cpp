@@ -152,6 +152,9 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(grasp.parameters.avoid.radius);
   GRASPD_COMPARE(grasp.parameters.avoid.runs);
   GRASPD_COMPARE(grasp.parameters.bin.wall);
+  GRASPD_COMPARE(grasp.parameters.bin.fitted);
+  GRASPD_COMPARE(grasp.parameters.bin.search);
+  GRASPD_COMPARE(grasp.parameters.bin.search_turn);
   GRASPD_COMPARE(grasp.parameters.tools.count);
   GRASPD_COMPARE(grasp.parameters.tools.tools[0].minimum_opening);
   GRASPD_COMPARE(grasp.parameters.tools.tools[0].maximum_opening);

@@ -7,6 +7,7 @@
 
 #include "core/grasp/planner.hpp"
 #include "core/grasp/ranking.hpp"
+#include "core/grasp/walls.hpp"
 #include "tests/core/grasp/box_scene.hpp"
 
 namespace graspd {
@@ -384,6 +385,48 @@ TEST_F(Planner, SameInputGivesTheSameBytes) {
   const PickResult again = choose();
   ASSERT_EQ(again.picks.size(), picks.size());
   EXPECT_EQ(std::memcmp(again.picks.data(), picks.data(), picks.size() * sizeof(Pick)), 0);
+}
+
+/// A bin of 240 x 180 x 100 mm that was given about (0, 0) and stands 30 mm to the left, on the floor of the scene.
+void put_pushed_bin(BinParameters& bin, BoxScene& scene) {
+  bin.present = true;
+  bin.robot_from_bin = shift(0.0F, 0.0F, 0.54F);
+  bin.inner_size = Vector3(0.240F, 0.180F, 0.100F);
+  BinParameters real = bin;
+  real.robot_from_bin = shift(-0.03F, 0.0F, 0.54F);
+  const BinWalls walls = bin_walls(real, -Vector3::UnitZ(), {});
+  for (const Box& wall : walls.all()) {
+    scene.boxes.push_back(
+        {walls.camera_from_bin * RigidTransform{Matrix3::Identity(), wall.centre()}, wall.half_size()});
+  }
+}
+
+TEST_F(Planner, LooksWhereTheBinStands) {
+  put_pushed_bin(parameters.bin, scene);
+  add_block(-0.090F, 0.0F, 0.575F);
+  EXPECT_EQ(choose().reasons[0], GraspRejection::wall) << "it would stand in the wall as given";
+  parameters.bin.fitted = true;
+  const PickResult result = choose();
+  ASSERT_TRUE(result.bin.found);
+  EXPECT_NEAR(result.bin.robot_from_bin.translation.x(), -0.03F, 0.002F);
+  EXPECT_TRUE(result.found);
+
+  instances.clear();
+  add_block(-0.120F, 0.0F, 0.575F);
+  EXPECT_EQ(choose().reasons[0], GraspRejection::wall) << "it stands at the wall as it is";
+}
+
+TEST_F(Planner, PicksNothingWhenTheBinIsNotFound) {
+  put_pushed_bin(parameters.bin, scene);
+  parameters.bin.fitted = true;
+  add_block(-0.03F, 0.0F, 0.575F);
+  ASSERT_TRUE(choose().found);
+  parameters.bin.search = 0.010F;
+  const PickResult result = choose();
+  EXPECT_FALSE(result.bin.found);
+  EXPECT_FALSE(result.found);
+  EXPECT_EQ(result.main_reason, GraspRejection::no_bin);
+  EXPECT_EQ(result.checks, 0U);
 }
 
 }  // namespace
