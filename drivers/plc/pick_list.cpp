@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/plc/coherent_words.hpp"
+
 namespace graspd {
 namespace {
 
 constexpr double steps_per_metre = 1e4;
-
-[[nodiscard]] std::uint16_t rounded_word(double value) {
-  if (!(value > 0)) return 0;
-  return static_cast<std::uint16_t>(std::lround(std::min(value, 65535.0)));
-}
 
 [[nodiscard]] bool is_finite(const ListedPick& entry) {
   return entry.pick.rotation.allFinite() && entry.pick.translation.allFinite() && std::isfinite(entry.opening);
@@ -30,21 +27,7 @@ constexpr double steps_per_metre = 1e4;
 }
 
 [[nodiscard]] Status check(std::span<const std::uint16_t> words) {
-  if (words.size() < pick_list::count) {
-    return Status::format(StatusCode::bad_file, "list of picks: %zu registers read, %u are needed", words.size(),
-                          unsigned{pick_list::count});
-  }
-  if (words[pick_list::map_version] != register_map_version) {
-    return Status::format(StatusCode::bad_file, "list of picks: map version %u, expected %u",
-                          unsigned{words[pick_list::map_version]}, unsigned{register_map_version});
-  }
-  if (words[pick_list::sequence_first] != words[pick_list::sequence_last]) {
-    return Status::format(StatusCode::bad_file, "list of picks: torn: sequence %u at the start, %u at the end",
-                          unsigned{words[pick_list::sequence_first]}, unsigned{words[pick_list::sequence_last]});
-  }
-  if (block_checksum(words.first(pick_list::checksum)) != words[pick_list::checksum]) {
-    return {StatusCode::bad_file, "list of picks: the checksum does not fit the contents"};
-  }
+  if (Status whole = check_coherent(words, pick_list::count, "list of picks"); !whole.ok()) return whole;
   const std::uint16_t convention = words[pick_list::pose_convention];
   if (convention < 1 || convention > pose_convention_count || words[pick_list::picks] > pick_list::entries) {
     return {StatusCode::bad_file, "list of picks: unknown pose convention, or more picks than a list holds"};
@@ -56,9 +39,7 @@ constexpr double steps_per_metre = 1e4;
 
 void encode_list(const ResultBlock& result, NumberKind kind, const BlockFormat& format,
                  std::span<std::uint16_t> words) {
-  std::ranges::fill(words.first(pick_list::count), std::uint16_t{0});
-  words[pick_list::map_version] = register_map_version;
-  words[pick_list::sequence_first] = result.sequence;
+  begin_coherent(words.first(pick_list::count), result.sequence);
   words[pick_list::request_id] = result.request_id;
   words[pick_list::result_code] = static_cast<std::uint16_t>(result.code);
   words[pick_list::picks] = sound_entries(result);
@@ -75,8 +56,7 @@ void encode_list(const ResultBlock& result, NumberKind kind, const BlockFormat& 
     put_length(at.subspan(pick_entry::opening), static_cast<double>(entry.opening), kind, format);
     put_pose(at.subspan(pick_entry::pick_pose), entry.pick, kind, format);
   }
-  words[pick_list::checksum] = block_checksum(words.first(pick_list::checksum));
-  words[pick_list::sequence_last] = result.sequence;
+  end_coherent(words.first(pick_list::count));
 }
 
 Result<ResultBlock> decode_list(std::span<const std::uint16_t> words, NumberKind kind, const BlockFormat& format) {

@@ -1,15 +1,11 @@
 #include "drivers/plc/result_block.hpp"
 
-#include <algorithm>
 #include <cmath>
+
+#include "drivers/plc/coherent_words.hpp"
 
 namespace graspd {
 namespace {
-
-[[nodiscard]] std::uint16_t rounded_word(double value) {
-  if (!(value > 0)) return 0;
-  return static_cast<std::uint16_t>(std::lround(std::min(value, 65535.0)));
-}
 
 [[nodiscard]] bool is_finite(const RigidTransform& pose) {
   return pose.rotation.allFinite() && pose.translation.allFinite();
@@ -28,21 +24,7 @@ void put_pick(std::span<std::uint16_t> words, const ResultBlock& result, const B
 }
 
 [[nodiscard]] Status check(std::span<const std::uint16_t> words, WordOrder order) {
-  if (words.size() < block::count) {
-    return Status::format(StatusCode::bad_file, "result block: %zu registers read, %u are needed", words.size(),
-                          unsigned{block::count});
-  }
-  if (words[block::map_version] != register_map_version) {
-    return Status::format(StatusCode::bad_file, "result block: map version %u, expected %u",
-                          unsigned{words[block::map_version]}, unsigned{register_map_version});
-  }
-  if (words[block::sequence_first] != words[block::sequence_last]) {
-    return Status::format(StatusCode::bad_file, "result block: torn: sequence %u at the start, %u at the end",
-                          unsigned{words[block::sequence_first]}, unsigned{words[block::sequence_last]});
-  }
-  if (block_checksum(words.first(block::checksum)) != words[block::checksum]) {
-    return {StatusCode::bad_file, "result block: the checksum does not fit the contents"};
-  }
+  if (Status whole = check_coherent(words, block::count, "result block"); !whole.ok()) return whole;
   if (get_float(words.subspan(block::test_float), order) != block::test_float_value ||
       get_int32(words.subspan(block::test_int), order) != block::test_int_value) {
     return Status::format(StatusCode::bad_file, "result block: the test pattern does not read as 123.456 in order %s",
@@ -65,23 +47,8 @@ bool has_poses(const ResultBlock& result) {
 
 bool has_pick(const ResultBlock& result) { return has_poses(result) && result.code == ResultCode::ok; }
 
-std::uint16_t block_checksum(std::span<const std::uint16_t> words) {
-  unsigned crc = 0xFFFF;
-  const auto add = [&crc](unsigned byte) {
-    crc ^= byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? (crc >> 1U) ^ 0xA001U : crc >> 1U;
-  };
-  for (const std::uint16_t word : words) {
-    add(static_cast<unsigned>(word) >> 8U);
-    add(static_cast<unsigned>(word) & 0xFFU);
-  }
-  return static_cast<std::uint16_t>(crc);
-}
-
 void encode(const ResultBlock& result, const BlockFormat& format, std::span<std::uint16_t> words) {
-  std::ranges::fill(words.first(block::count), std::uint16_t{0});
-  words[block::map_version] = register_map_version;
-  words[block::sequence_first] = result.sequence;
+  begin_coherent(words.first(block::count), result.sequence);
   words[block::request_id] = result.request_id;
   words[block::result_code] = static_cast<std::uint16_t>(result.code);
   words[block::reason] = static_cast<std::uint16_t>(result.reason);
@@ -104,8 +71,7 @@ void encode(const ResultBlock& result, const BlockFormat& format, std::span<std:
   put_float(words.subspan(block::test_float), block::test_float_value, format.word_order);
   put_int32(words.subspan(block::test_int), block::test_int_value, format.word_order);
   if (has_poses(result)) put_pick(words, result, format);
-  words[block::checksum] = block_checksum(words.first(block::checksum));
-  words[block::sequence_last] = result.sequence;
+  end_coherent(words.first(block::count));
 }
 
 Result<ResultBlock> decode(std::span<const std::uint16_t> words, const BlockFormat& format) {

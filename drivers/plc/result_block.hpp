@@ -72,7 +72,4 @@ void encode(const ResultBlock& result, const BlockFormat& format, std::span<std:
 /// of another map version or damaged, or when the test pattern contradicts the word order.
 [[nodiscard]] Result<ResultBlock> decode(std::span<const std::uint16_t> words, const BlockFormat& format);
 
-/// CRC-16/MODBUS over `words`, the high byte of each first.
-[[nodiscard]] std::uint16_t block_checksum(std::span<const std::uint16_t> words);
-
 }  // namespace graspd

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "drivers/plc/coherent_words.hpp"
 #include "drivers/plc/register_tables.hpp"
 #include "drivers/plc/result_block.hpp"
 
