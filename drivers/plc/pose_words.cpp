@@ -74,17 +74,22 @@ void put_pose(std::span<std::uint16_t> words, const RigidTransform& pose, Number
   }
 }
 
+std::array<double, 4> get_orientation(std::span<const std::uint16_t> words, NumberKind kind,
+                                      const BlockFormat& format) {
+  const double scale = orientation_scale(kind, format);
+  std::array<double, 4> orientation{};
+  for (std::size_t i = 0; i < orientation.size(); ++i) {
+    orientation[i] = get_number(words.subspan(2 * i), kind, format.word_order) / scale;
+  }
+  return orientation;
+}
+
 RigidTransform get_pose(std::span<const std::uint16_t> words, NumberKind kind, const BlockFormat& format) {
   RigidTransform pose;
   for (std::size_t i = 0; i < 3; ++i) {
     pose.translation[static_cast<int>(i)] = static_cast<float>(get_length(words.subspan(2 * i), kind, format));
   }
-  const double scale = orientation_scale(kind, format);
-  std::array<double, 4> orientation{};
-  for (std::size_t i = 0; i < orientation.size(); ++i) {
-    orientation[i] = get_number(words.subspan(6 + 2 * i), kind, format.word_order) / scale;
-  }
-  pose.rotation = rotation_from_values(orientation, format.convention);
+  pose.rotation = rotation_from_values(get_orientation(words.subspan(6), kind, format), format.convention);
   return pose;
 }
 

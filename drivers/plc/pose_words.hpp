@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -36,6 +37,9 @@ void put_length(std::span<std::uint16_t> words, double metres, NumberKind kind, 
 
 /// Writes a pose to the first pose_words of `words`.
 void put_pose(std::span<std::uint16_t> words, const RigidTransform& pose, NumberKind kind, const BlockFormat& format);
+/// Reads the four numbers of an orientation (radians, or components of a quaternion) from the first eight of `words`.
+[[nodiscard]] std::array<double, 4> get_orientation(std::span<const std::uint16_t> words, NumberKind kind,
+                                                    const BlockFormat& format);
 /// Reads a pose from the first pose_words of `words`. Its numbers are as finite as those in the registers.
 [[nodiscard]] RigidTransform get_pose(std::span<const std::uint16_t> words, NumberKind kind, const BlockFormat& format);
 

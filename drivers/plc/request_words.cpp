@@ -1,6 +1,7 @@
 #include "drivers/plc/request_words.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -25,13 +26,9 @@ constexpr double longest_norm_error = 0.01;
 }
 
 /// Four numbers that were never written are zeros, which as a quaternion are no rotation.
-[[nodiscard]] bool is_unit_quaternion(std::span<const std::uint16_t> words, NumberKind kind, WordOrder order) {
+[[nodiscard]] bool is_unit_quaternion(const std::array<double, 4>& values) {
   double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double value = kind == NumberKind::scaled ? static_cast<double>(get_int32(words.subspan(2 * i), order)) / 1e6
-                                                    : static_cast<double>(get_float(words.subspan(2 * i), order));
-    sum += value * value;
-  }
+  for (const double value : values) sum += value * value;
   return std::abs(std::sqrt(sum) - 1.0) < longest_norm_error;
 }
 
@@ -39,7 +36,7 @@ constexpr double longest_norm_error = 0.01;
                                               const BlockFormat& format) {
   RigidTransform pose = get_pose(words, kind, format);
   if (format.convention == PoseConvention::quaternion &&
-      !is_unit_quaternion(words.subspan(6), kind, format.word_order)) {
+      !is_unit_quaternion(get_orientation(words.subspan(6), kind, format))) {
     pose.rotation.setConstant(std::numeric_limits<float>::quiet_NaN());
   }
   return pose;
