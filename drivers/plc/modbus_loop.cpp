@@ -25,10 +25,6 @@ constexpr std::int64_t log_window_ns = 10'000'000'000;
 constexpr std::size_t header_size = 7;
 constexpr int receives_at_once = 4;
 
-[[nodiscard]] std::int64_t nanoseconds(std::chrono::milliseconds time) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(time).count();
-}
-
 void set_option(int descriptor, int level, int option, int value) {
   setsockopt(descriptor, level, option, &value, sizeof(value));
 }
@@ -119,7 +115,7 @@ void ModbusServer::Loop::run() {
     const int ready = ppoll(waiting.data(), waiting.size(), &time, nullptr);
     if (ready < 0 && errno != EINTR) std::this_thread::sleep_for(std::chrono::nanoseconds(longest_wait_ns));
     const std::int64_t now_ns = monotonic_ns();
-    take_news(now_ns);
+    session_->on_news(mailbox_.take(), now_ns);
     const std::span<ModbusClientSlot> slots = clients_.slots();
     for (ModbusClientSlot& client : slots) {
       if (client.is_open() && client.filled > 0) serve_buffered(client, now_ns);
@@ -148,13 +144,6 @@ std::span<pollfd> ModbusServer::Loop::prepare_poll(std::int64_t now_ns, std::int
     waiting_[i + 2] = {slowed_ns > 0 ? -1 : slots[i].descriptor, POLLIN, 0};
   }
   return std::span(waiting_).first(slots.size() + 2);
-}
-
-void ModbusServer::Loop::take_news(std::int64_t now_ns) {
-  const WorkerNews news = mailbox_.take();
-  session_->on_time(news.camera_ok, news.model_loaded, now_ns);
-  if (news.capture_done != 0) session_->on_capture_done(news.capture_done, now_ns);
-  if (news.has_answer) session_->on_answer(news.answer, now_ns);
 }
 
 void ModbusServer::Loop::accept_client(std::int64_t now_ns) {

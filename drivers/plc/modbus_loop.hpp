@@ -54,7 +54,6 @@ class ModbusServer::Loop {
 
   void run();
   [[nodiscard]] std::span<pollfd> prepare_poll(std::int64_t now_ns, std::int64_t& wait_ns);
-  void take_news(std::int64_t now_ns);
   void accept_client(std::int64_t now_ns);
   [[nodiscard]] ModbusClientSlot* make_room(std::int64_t now_ns);
   void receive(ModbusClientSlot& client, std::int64_t now_ns);

@@ -91,6 +91,12 @@ void PlcSession::on_time(bool camera_ok, bool model_loaded, std::int64_t now_ns)
   publish(now_ns);
 }
 
+void PlcSession::on_news(const WorkerNews& news, std::int64_t now_ns) {
+  on_time(news.camera_ok, news.model_loaded, now_ns);
+  if (news.capture_done != 0) on_capture_done(news.capture_done, now_ns);
+  if (news.has_answer) on_answer(news.answer, now_ns);
+}
+
 void PlcSession::set_clients(std::uint16_t clients) { put_live(live_register::clients, clients); }
 
 std::uint16_t PlcSession::wanted() const {

@@ -5,6 +5,7 @@
 
 #include "drivers/plc/handshake.hpp"
 #include "drivers/plc/result_block.hpp"
+#include "drivers/plc/worker_mailbox.hpp"
 #include "drivers/system/log.hpp"
 
 namespace graspd {
@@ -36,6 +37,8 @@ class PlcSession {
   void on_answer(const ResultBlock& result, std::int64_t now_ns);
   /// To be called whenever something may have changed, and a few times a second in any case.
   void on_time(bool camera_ok, bool model_loaded, std::int64_t now_ns);
+  /// What the worker had to say since the last time, in the order in which it matters.
+  void on_news(const WorkerNews& news, std::int64_t now_ns);
   void set_clients(std::uint16_t clients);
 
   /// The request that the PLC still waits for; 0: none.

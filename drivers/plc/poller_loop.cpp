@@ -17,10 +17,6 @@ constexpr std::int64_t longest_wait_ns = 50 * millisecond;
 constexpr std::uint32_t log_lines = 20;
 constexpr std::int64_t log_window_ns = 10'000 * millisecond;
 
-[[nodiscard]] std::int64_t nanoseconds(std::chrono::milliseconds time) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(time).count();
-}
-
 }  // namespace
 
 ModbusPoller::Loop::Loop(const PollerOptions& options, const SocketAddress& address)
@@ -48,7 +44,7 @@ void ModbusPoller::Loop::stop() {
 void ModbusPoller::Loop::run() {
   while (!stopping_.load()) {
     wait(monotonic_ns());
-    take_news(monotonic_ns());
+    session_.on_news(mailbox_.take(), monotonic_ns());
     if (!plc_.is_open() && monotonic_ns() >= connect_again_ns_) connect(monotonic_ns());
     if (plc_.is_open()) {
       Status done;
@@ -71,13 +67,6 @@ void ModbusPoller::Loop::wait(std::int64_t now_ns) const {
   const std::int64_t time_ns = std::clamp<std::int64_t>(due_ns - now_ns, 0, longest_wait_ns);
   pollfd waiting{mailbox_.wake_descriptor(), POLLIN, 0};
   poll(&waiting, 1, static_cast<int>((time_ns + millisecond - 1) / millisecond));
-}
-
-void ModbusPoller::Loop::take_news(std::int64_t now_ns) {
-  const WorkerNews news = mailbox_.take();
-  session_.on_time(news.camera_ok, news.model_loaded, now_ns);
-  if (news.capture_done != 0) session_.on_capture_done(news.capture_done, now_ns);
-  if (news.has_answer) session_.on_answer(news.answer, now_ns);
 }
 
 void ModbusPoller::Loop::connect(std::int64_t now_ns) {

@@ -36,7 +36,6 @@ class ModbusPoller::Loop {
  private:
   void run();
   void wait(std::int64_t now_ns) const;
-  void take_news(std::int64_t now_ns);
   void connect(std::int64_t now_ns);
   [[nodiscard]] Status look(std::int64_t now_ns);
   void lose(const Status& reason, std::int64_t now_ns);
