@@ -11,20 +11,8 @@ namespace {
 /// remembers the status word among them.
 class BarePlc {
  public:
-  BarePlc() : listener_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof(address);
-    EXPECT_EQ(bind(listener_, reinterpret_cast<sockaddr*>(&address), size), 0);
-    EXPECT_EQ(listen(listener_, 4), 0);
-    EXPECT_EQ(getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size), 0);
-    port = ntohs(address.sin_port);
-  }
-  ~BarePlc() {
-    hang_up();
-    close(listener_);
-  }
+  BarePlc() = default;
+  ~BarePlc() { hang_up(); }
   BarePlc(const BarePlc&) = delete;
   BarePlc& operator=(const BarePlc&) = delete;
 
@@ -37,14 +25,15 @@ class BarePlc {
   /// Serves until the status word has `bit` as wanted; false when it never comes.
   [[nodiscard]] bool serve_until(unsigned bit, bool wanted) {
     for (int requests = 0; requests < 2000; ++requests) {
-      if (client_ < 0) client_ = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
+      if (client_ < 0) client_ = accept4(listener_.descriptor(), nullptr, nullptr, SOCK_CLOEXEC);
       if (!serve_one()) return false;
       if (((status_ >> bit & 1U) != 0) == wanted) return true;
     }
     return false;
   }
 
-  std::uint16_t port = 0;
+  [[nodiscard]] std::uint16_t port() const { return listener_.port(); }
+
   std::uint8_t coils = 0;
 
  private:
@@ -80,7 +69,7 @@ class BarePlc {
     return send(client_, bytes_.data(), size, MSG_NOSIGNAL) == static_cast<ssize_t>(size);
   }
 
-  int listener_;
+  LoopbackListener listener_;
   int client_ = -1;
   unsigned status_ = 0;
   std::array<std::uint8_t, 600> bytes_{};
@@ -90,7 +79,7 @@ TEST(ModbusPollerAllocations, ThereAreNoneBetweenTriggerAndAcknowledgeNorInConne
   BarePlc plc;
   PollerOptions options;
   options.address = "127.0.0.1";
-  options.port = plc.port;
+  options.port = plc.port();
   options.poll_period = 1ms;
   Result<std::unique_ptr<ModbusPoller>> started = ModbusPoller::start(options);
   ASSERT_TRUE(started.ok()) << started.status().message();

@@ -23,15 +23,12 @@ TEST(ModbusServerAllocations, ThereAreNoneBetweenTriggerAndAcknowledge) {
   const auto server = start_server();
   server->set_camera_ok(true);
   server->set_model_loaded(true);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(server->port());
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const sockaddr_in address = loopback_address(server->port());
   PlcRequest request;
 
   testing::AllocationGuard guard;
   const int client = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  ASSERT_EQ(connect(client, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+  ASSERT_EQ(connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
   for (int i = 0; i < 10; ++i) {
     exchange(client, {0, 1, 0, 0, 0, 6, 1, 5, 0, 0, 255, 0}, 12);  // Trigger.
     ASSERT_TRUE(server->wait_for_request(request, patience));

@@ -1,9 +1,5 @@
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <string>
@@ -11,6 +7,7 @@
 
 #include "drivers/files/atomic_file.hpp"
 #include "drivers/files/picture.hpp"
+#include "tests/drivers/plc/loopback_listener.hpp"
 #include "tests/firmware_app/graspd_process.hpp"
 #include "tests/firmware_app/pick_cycle_fixture.hpp"
 
@@ -197,19 +194,11 @@ TEST_F(BadInput, FrameThatIsAllInvalid) {
 }
 
 TEST_F(BadInput, PortInUse) {
-  const int listener = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-  ASSERT_EQ(listen(listener, 1), 0);
-  socklen_t size = sizeof address;
-  ASSERT_EQ(getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  const std::string port = std::to_string(ntohs(address.sin_port));
+  const LoopbackListener listener;
+  const std::string port = std::to_string(listener.port());
   expect_refusal({"run", "--config",
                   configuration("[modbus]\naddress = \"127.0.0.1\"\nport = " + port + "\n[memory]\nlock = false\n")},
                  8, {"127.0.0.1", port});
-  close(listener);
 }
 
 TEST_F(BadInput, BudgetTooSmall) {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -19,6 +17,7 @@
 
 #include "drivers/plc/plc_session.hpp"
 #include "drivers/plc/register_map.hpp"
+#include "tests/drivers/plc/loopback_listener.hpp"
 
 namespace graspd {
 
@@ -36,26 +35,17 @@ class PlcStandIn {
   };
   static constexpr std::uint16_t result_address = 1000;
 
-  PlcStandIn() : listener_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof(address);
-    EXPECT_EQ(bind(listener_, reinterpret_cast<sockaddr*>(&address), size), 0);
-    EXPECT_EQ(getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size), 0);
-    EXPECT_EQ(listen(listener_, 8), 0);
-    port_ = ntohs(address.sin_port);
+  PlcStandIn() {
     thread_ = std::thread([this] { serve(); });
   }
   ~PlcStandIn() {
     stop_ = true;
     thread_.join();
-    close(listener_);
   }
   PlcStandIn(const PlcStandIn&) = delete;
   PlcStandIn& operator=(const PlcStandIn&) = delete;
 
-  [[nodiscard]] std::uint16_t port() const { return port_; }
+  [[nodiscard]] std::uint16_t port() const { return listener_.port(); }
   void set_mood(Mood mood) { mood_ = mood; }
   void set_coil(std::size_t address, bool level) {
     const std::lock_guard lock(mutex_);
@@ -97,8 +87,8 @@ class PlcStandIn {
     Bytes buffer;
     while (!stop_) {
       if (client < 0) {
-        if (!is_readable(listener_)) continue;
-        client = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
+        if (!is_readable(listener_.descriptor())) continue;
+        client = accept4(listener_.descriptor(), nullptr, nullptr, SOCK_CLOEXEC);
         buffer.clear();
         ++connections;
       }
@@ -157,8 +147,7 @@ class PlcStandIn {
     return {request.begin() + 7, request.begin() + 12};
   }
 
-  int listener_;
-  std::uint16_t port_ = 0;
+  LoopbackListener listener_;
   std::atomic<Mood> mood_{Mood::answers};
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;
