@@ -14,24 +14,19 @@
 namespace graspd {
 
 PictureWriter::PictureWriter(std::filesystem::path path, WorkingMemory& memory, const GraspParameters& grasp)
-    : path_(std::move(path)), memory_(memory), grasp_(grasp) {
-  thread_ = std::thread([this] { work(); });
-}
-
-PictureWriter::~PictureWriter() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
-}
+    : path_(std::move(path)),
+      memory_(memory),
+      grasp_(grasp),
+      worker_([this] { return draw(); },
+              [](const Status& drawn) {
+                if (drawn.ok()) return;
+                log_event(LogLevel::warning, "W013", "picture not written: %.*s",
+                          static_cast<int>(drawn.message().size()), drawn.message().data());
+              }) {}
 
 void PictureWriter::offer(const Capture& capture, const Answer& answer) {
   if (capture.frame.depth.empty()) return;
-  {
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock.owns_lock() || pending_) return;
+  static_cast<void>(worker_.offer([&] {
     camera_ = capture.frame.camera;
     std::copy(capture.frame.depth.begin(), capture.frame.depth.end(), memory_.pictured_frame.begin());
     instance_count_ = std::min(capture.detections.instances.size(), memory_.pictured_instances.size());
@@ -41,28 +36,10 @@ void PictureWriter::offer(const Capture& capture, const Answer& answer) {
     pick_.reset();
     if (has_poses(answer.block)) pick_ = capture.picks.picks[answer.block.result_index - std::size_t{1}];
     answer_ = answer;
-    pending_ = true;
-  }
-  wake_.notify_one();
+  }));
 }
 
-void PictureWriter::work() {
-  std::unique_lock lock(mutex_);
-  while (true) {
-    wake_.wait(lock, [this] { return pending_ || stop_; });
-    if (!pending_) return;
-    lock.unlock();
-    try {
-      draw();
-    } catch (const std::exception& problem) {
-      log_event(LogLevel::warning, "W013", "picture not drawn: %s", problem.what());
-    }
-    lock.lock();
-    pending_ = false;
-  }
-}
-
-void PictureWriter::draw() {
+Status PictureWriter::draw() const {
   const DepthFrame frame{camera_, memory_.pictured_frame.first(camera_.pixel_count()), 0, 0};
   const std::vector<DrawnInstance> instances =
       drawn_instances(memory_.pictured_instances.first(instance_count_), banks_);
@@ -70,11 +47,7 @@ void PictureWriter::draw() {
   if (pick_) pick = drawn_pick(*pick_, grasp_);
   std::array<char, 640> caption{};
   explain_answer(answer_, caption);
-  const Status written = write_picture(path_, draw_detections(frame, instances, pick, caption.data()));
-  if (!written.ok()) {
-    log_event(LogLevel::warning, "W013", "picture not written: %.*s", static_cast<int>(written.message().size()),
-              written.message().data());
-  }
+  return write_picture(path_, draw_detections(frame, instances, pick, caption.data()));
 }
 
 }  // namespace graspd

@@ -1,7 +1,6 @@
 #include "firmware_app/record_writer.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -52,31 +51,20 @@ RecordWriter::RecordWriter(RecordFolder folder, RecordWhen when, const std::stri
       configuration_file_(configuration_file),
       depth_(frame_pixels),
       empty_depth_(frame_pixels),
-      instances_(instances) {
+      instances_(instances),
+      worker_([this] { return record(); }, [this](const Status& recorded) { tell(recorded); }) {
   Result<std::string> configuration = read_file(configuration_file);
   if (configuration.ok()) configuration_ = std::move(configuration).value();
   for (std::size_t i = 0; i < banks.banks.size(); ++i) {
     digests_.push_back({banks.banks[i].part->part_id, banks.paths[i], digest_of_file(banks.paths[i])});
   }
-  thread_ = std::thread([this] { work(); });
-}
-
-RecordWriter::~RecordWriter() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
 }
 
 void RecordWriter::offer(const Capture& capture, const PlcRequest& request, const Answer& answer,
                          const DepthFrame& empty_bin) {
   if (request.kind != RequestKind::capture || capture.frame.depth.empty() || !capture.answered) return;
   if (!is_worth_recording(when_, answer.block.code) || capture.frame.depth.size() > depth_.size()) return;
-  {
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock.owns_lock() || pending_) return;
+  static_cast<void>(worker_.offer([&] {
     camera_ = capture.frame.camera;
     std::copy(capture.frame.depth.begin(), capture.frame.depth.end(), depth_.begin());
     has_empty_ = empty_bin.depth.size() == capture.frame.depth.size();
@@ -92,34 +80,26 @@ void RecordWriter::offer(const Capture& capture, const PlcRequest& request, cons
     banks_ = capture.banks;
     request_ = request;
     answer_ = answer;
-    pending_ = true;
-  }
-  wake_.notify_one();
+  }));
 }
 
-void RecordWriter::work() {
-  std::unique_lock lock(mutex_);
-  while (true) {
-    wake_.wait(lock, [this] { return pending_ || stop_; });
-    if (!pending_) return;
-    lock.unlock();
-    try {
-      std::set<std::uint32_t> parts;
-      for (const Bank& bank : banks_) parts.insert(bank.part->part_id);
-      const Result<std::filesystem::path> added =
-          folder_.add(parts, [this](const std::filesystem::path& scene) { return write(scene); });
-      if (added.ok()) {
-        log_event(LogLevel::info, "I017", "recorded %s request=%u", added.value().c_str(),
-                  unsigned{request_.request_id});
-      } else {
-        log_event(LogLevel::warning, "W016", "not recorded: %.*s", static_cast<int>(added.status().message().size()),
-                  added.status().message().data());
-      }
-    } catch (const std::exception& problem) {
-      log_event(LogLevel::warning, "W016", "not recorded: %s", problem.what());
-    }
-    lock.lock();
-    pending_ = false;
+Status RecordWriter::record() {
+  recorded_id_ = request_.request_id;
+  std::set<std::uint32_t> parts;
+  for (const Bank& bank : banks_) parts.insert(bank.part->part_id);
+  Result<std::filesystem::path> added =
+      folder_.add(parts, [this](const std::filesystem::path& scene) { return write(scene); });
+  if (!added.ok()) return added.status();
+  recorded_scene_ = std::move(added).value();
+  return {};
+}
+
+void RecordWriter::tell(const Status& recorded) const {
+  if (recorded.ok()) {
+    log_event(LogLevel::info, "I017", "recorded %s request=%u", recorded_scene_.c_str(), unsigned{recorded_id_});
+  } else {
+    log_event(LogLevel::warning, "W016", "not recorded: %.*s", static_cast<int>(recorded.message().size()),
+              recorded.message().data());
   }
 }
 

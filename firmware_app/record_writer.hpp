@@ -1,12 +1,12 @@
 #pragma once
 
-#include <condition_variable>
-#include <mutex>
+#include <cstdint>
+#include <filesystem>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "core/status.hpp"
+#include "firmware_app/background_worker.hpp"
 #include "firmware_app/loaded_banks.hpp"
 #include "firmware_app/pick_cycle.hpp"
 #include "firmware_app/record_folder.hpp"
@@ -24,9 +24,6 @@ class RecordWriter {
   /// Takes all memory that it will need for frames up to `frame_pixels`, and `instances` found or rejected.
   RecordWriter(RecordFolder folder, RecordWhen when, const std::string& configuration_file, const LoadedBanks& banks,
                std::size_t frame_pixels, std::size_t instances);
-  ~RecordWriter();
-  RecordWriter(const RecordWriter&) = delete;
-  RecordWriter& operator=(const RecordWriter&) = delete;
 
   /// Copies what is to be recorded and returns; never allocates.
   void offer(const Capture& capture, const PlcRequest& request, const Answer& answer, const DepthFrame& empty_bin);
@@ -38,7 +35,8 @@ class RecordWriter {
     std::string digest;
   };
 
-  void work();
+  [[nodiscard]] Status record();
+  void tell(const Status& recorded) const;
   [[nodiscard]] Status write(const std::filesystem::path& scene) const;
   [[nodiscard]] std::string record_text() const;
 
@@ -48,12 +46,7 @@ class RecordWriter {
   std::string configuration_;
   std::vector<BankDigest> digests_;
 
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  bool pending_ = false;
-  bool stop_ = false;
-
-  // What is being recorded; the writer's own while `pending_`.
+  // What is being recorded.
   std::vector<float> depth_;
   std::vector<float> empty_depth_;
   std::vector<Instance> instances_;
@@ -63,7 +56,11 @@ class RecordWriter {
   Detections detections_;
   PlcRequest request_;
   Answer answer_;
-  std::thread thread_;
+
+  // Of what was recorded last; the worker's own.
+  std::filesystem::path recorded_scene_;
+  std::uint16_t recorded_id_ = 0;
+  BackgroundWorker worker_;
 };
 
 /// The most memory that a RecordWriter of these sizes takes, with the file that is being written.

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
-#include <exception>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -46,60 +45,33 @@ Status prepare_snapshots(const fs::path& folder) {
 }
 
 SnapshotWriter::SnapshotWriter(fs::path folder, std::size_t kept, std::span<float> memory)
-    : folder_(std::move(folder)), kept_(kept), memory_(memory) {
-  thread_ = std::thread([this] { work(); });
-}
-
-SnapshotWriter::~SnapshotWriter() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
-}
+    : folder_(std::move(folder)),
+      kept_(kept),
+      memory_(memory),
+      worker_([this] { return write(); }, [this](const Status& written) { tell(written); }) {}
 
 void SnapshotWriter::offer(const DepthFrame& frame, std::uint16_t request_id) {
   if (frame.depth.empty()) return;
-  {
-    const std::lock_guard lock(mutex_);
-    if (pending_) {
-      log_event(LogLevel::warning, "W014", "snapshot not kept: the last one is still being written request_id=%u",
-                unsigned{request_id});
-      return;
-    }
+  const bool taken = worker_.offer([&] {
     camera_ = frame.camera;
     std::ranges::copy(frame.depth, memory_.begin());
     request_id_ = request_id;
-    pending_ = true;
-  }
-  wake_.notify_one();
+  });
+  if (taken) return;
+  log_event(LogLevel::warning, "W014", "snapshot not kept: the last one is still being written request_id=%u",
+            unsigned{request_id});
 }
 
-void SnapshotWriter::work() {
-  std::unique_lock lock(mutex_);
-  while (true) {
-    wake_.wait(lock, [this] { return pending_ || stop_; });
-    if (!pending_) return;
-    lock.unlock();
-    Status written;
-    try {
-      written = write();
-    } catch (const std::exception& problem) {
-      written = Status::format(StatusCode::cannot_write, "%s", problem.what());
-    }
-    lock.lock();
-    // Said last: who reads it may ask for the next one.
-    pending_ = false;
-    if (written.ok()) {
-      log_event(LogLevel::notice, "N015", "snapshot kept request_id=%u", unsigned{request_id_});
-    } else {
-      log_event(LogLevel::warning, "W014", "snapshot not kept: %s", written.message().data());
-    }
+void SnapshotWriter::tell(const Status& written) const {
+  if (written.ok()) {
+    log_event(LogLevel::notice, "N015", "snapshot kept request_id=%u", unsigned{written_id_});
+  } else {
+    log_event(LogLevel::warning, "W014", "snapshot not kept: %s", written.message().data());
   }
 }
 
-Status SnapshotWriter::write() const {
+Status SnapshotWriter::write() {
+  written_id_ = request_id_;
   const fs::path path = folder_ / name_for(request_id_);
   Status written = write_frame_folder(path, {camera_, memory_.first(camera_.pixel_count()), 0, 0});
   if (written.ok()) drop_oldest();

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <span>
-#include <thread>
 
 #include "core/geometry/depth_frame.hpp"
 #include "core/status.hpp"
+#include "firmware_app/background_worker.hpp"
 
 namespace graspd {
 
@@ -22,30 +20,23 @@ class SnapshotWriter {
  public:
   /// Of the snapshots in `folder` at most `kept` stay. `memory` holds the largest frame and must outlive the writer.
   SnapshotWriter(std::filesystem::path folder, std::size_t kept, std::span<float> memory);
-  /// Writes what was offered before it ends.
-  ~SnapshotWriter();
-  SnapshotWriter(const SnapshotWriter&) = delete;
-  SnapshotWriter& operator=(const SnapshotWriter&) = delete;
 
   /// Copies the frame and returns; without a frame it does nothing. While the last snapshot is being written the
   /// frame is not taken, and the log says so.
   void offer(const DepthFrame& frame, std::uint16_t request_id);
 
  private:
-  void work();
-  [[nodiscard]] Status write() const;
+  [[nodiscard]] Status write();
+  void tell(const Status& written) const;
   void drop_oldest() const;
 
   std::filesystem::path folder_;
   std::size_t kept_;
   std::span<float> memory_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  bool pending_ = false;
-  bool stop_ = false;
   Camera camera_;
   std::uint16_t request_id_ = 0;
-  std::thread thread_;
+  std::uint16_t written_id_ = 0;  ///< Of the request whose snapshot was written last; the worker's own.
+  BackgroundWorker worker_;
 };
 
 }  // namespace graspd
