@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "core/grasp/candidates.hpp"
 #include "drivers/files/atomic_file.hpp"
 #include "firmware_app/commands.hpp"
 #include "firmware_app/configuration.hpp"
@@ -13,12 +14,27 @@
 namespace graspd {
 namespace {
 
-void print_banks(const LoadedBanks& banks) {
+/// Which tool takes each grasp: that is fixed, so that a PLC which changes tools knows it from part and grasp.
+void print_grasps(const Bank& bank, const ToolSet& tools) {
+  for (const PartGrasp& grasp : bank.grasps) {
+    GraspRejection reason = GraspRejection::none;
+    const std::uint32_t tool = tool_for(tools, grasp, reason);
+    if (tool < tools.count) {
+      std::printf("               grasp %u: tool %u\n", grasp.number, tools.tools[tool].number);
+    } else {
+      std::printf("               note: grasp %u will never be used: %s\n", grasp.number,
+                  reason == GraspRejection::opening ? "no tool opens that wide" : "no tool is of its kind and number");
+    }
+  }
+}
+
+void print_banks(const LoadedBanks& banks, const ToolSet& tools) {
   for (std::size_t i = 0; i < banks.banks.size(); ++i) {
     const Bank& bank = banks.banks[i];
     std::printf("bank           %s: part %u, %.*s, %zu views, %zu grasps\n", banks.paths[i].c_str(), bank.part->part_id,
                 static_cast<int>(bank.part->name_view().size()), bank.part->name_view().data(), bank.views.size(),
                 bank.grasps.size());
+    print_grasps(bank, tools);
     if (bank.grasps.empty()) {
       std::printf("               note: its part file lists no [[grasp]], so it will be found but never picked\n");
     }
@@ -33,7 +49,7 @@ Status check(const std::string& path) {
   std::printf("configuration  %s: fine\n", path.c_str());
   const Result<LoadedBanks> banks = load_banks(configuration.banks);
   if (!banks.ok()) return banks.status();
-  print_banks(banks.value());
+  print_banks(banks.value(), configuration.grasp.parameters.tools);
   const Result<OpenedSource> frames = open_source(configuration.camera, false);
   if (!frames.ok()) return frames.status();
   const FrameLimits limits = frames.value().limits;
@@ -55,7 +71,8 @@ void add_check_command(CLI::App& command_line, Status& outcome) {
   command->add_option("--config", *path, "Configuration file")->capture_default_str();
   command->footer(
       "Does what `graspd run` does before it serves anybody: reads the configuration, checks every\n"
-      "bank, opens the frames, and prints the memory that the daemon would take, owner by owner.\n"
+      "bank, tells which tool takes each grasp, opens the frames, and prints the memory that the\n"
+      "daemon would take, owner by owner.\n"
       "Ends with code 7 when that is more than memory.budget.\n"
       "\n"
       "Example:\n"
