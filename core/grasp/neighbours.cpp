@@ -25,20 +25,19 @@ bool piece_meets_surface(const Box& box, const Vector3& motion, const RigidTrans
 }  // namespace
 
 bool sweep_meets_instances(std::span<const Instance> instances, std::span<const Bank> banks, std::size_t held,
-                           const Sweep& sweep, float clearance, std::size_t points_each) {
+                           const Sweep& sweep, float clearance) {
   const RigidTransform tool_from_camera = inverse(sweep.camera_from_tool);
   for (std::size_t i = 0; i < instances.size(); ++i) {
     if (i == held) continue;
     const Bank& bank = banks[instances[i].bank];
     const float radius = radius_of(bank);
     const Vector3 centre = tool_from_camera * centre_of(instances[i], banks);
-    const auto surface = bank.surface.first(std::min(points_each, bank.surface.size()));
     for (const GripperPiece& piece : sweep.gripper->all()) {
       const Box box = grown(piece.box, clearance);
       if (distance_to_box(centre, swept_bounds(box, sweep.motion)) > radius) continue;
       const RigidTransform tool_from_part = tool_from_camera * instances[i].camera_from_part;
       if (!sweep_meets_box(box, sweep.motion, tool_from_part, {bank.part->box_min, bank.part->box_max})) continue;
-      if (piece_meets_surface(box, sweep.motion, tool_from_part, surface)) return true;
+      if (piece_meets_surface(box, sweep.motion, tool_from_part, bank.surface)) return true;
     }
   }
   return false;
