@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"begin with the identity", [](SmallBank& b) { b.symmetries[0] = b.symmetries[1]; }},
                     Fault{"a symmetry is not", [](SmallBank& b) { b.symmetries[1].rotation *= 1.1F; }},
                     Fault{"a symmetry is not", [](SmallBank& b) { b.symmetries[1].rotation.col(0) *= -1.0F; }},
-                    Fault{"a grasp is not", [](SmallBank& b) { b.grasps[0].opening = not_a_number; }}));
+                    Fault{"a grasp is of no known kind", [](SmallBank& b) { b.grasps[0].opening = not_a_number; }}));
 
 TEST(BankContents, SectionsThatMustNotBeEmpty) {
   const SmallBank small;
