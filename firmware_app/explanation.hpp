@@ -11,8 +11,8 @@
 #include "core/detect/detections.hpp"
 #include "core/detect/detector.hpp"
 #include "core/detect/parameters.hpp"
-#include "core/detect/trace.hpp"
 #include "core/detect/score.hpp"
+#include "core/detect/trace.hpp"
 #include "core/evaluate/explanation.hpp"
 
 namespace graspd {
