@@ -37,6 +37,7 @@ struct Evidence {
   float edge = 0;       ///< Share of the decided outline that agrees with the scene.
   float outline = 0;    ///< Length of the outline, in voxel edges.
   float lock = 0;       ///< How firmly the confirmed normals hold the pose: 0 for a plane or a cylinder, at most 1.
+  float blur = 0;       ///< How far the sensor smears depth steps: 0 sharp, 1 over half a voxel and more.
   float gap = 0;        ///< Area with free space where the model stands, without its seam, in voxel faces.
   float below = 0;      ///< Share of the model below the plane or inside accepted instances.
   float residual = 0;   ///< Root mean square distance of confirmed points, in voxels of the bank

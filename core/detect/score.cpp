@@ -8,11 +8,12 @@ namespace graspd {
 namespace {
 
 /// How much the outline counts: all on a surface that could slide along itself, which fits wherever there is more of
-/// it, and little on a shape that only fits itself.
-float outline_weight(float lock) {
+/// it, and little on a shape that only fits itself. A sensor that smears depth steps lets neighbours grow together.
+float outline_weight(const Evidence& evidence) {
   constexpr float sliding = 0.02F;
   constexpr float locked = 0.15F;
-  return std::clamp((locked - lock) / (locked - sliding), 0.2F, 1.0F);
+  constexpr float lost_by_blur = 0.66F;
+  return std::clamp((locked - evidence.lock) / (locked - sliding), 0.2F, 1.0F) * (1.0F - lost_by_blur * evidence.blur);
 }
 
 }  // namespace
@@ -25,14 +26,14 @@ float score_of(const Evidence& evidence, bool in_company) {
   // lower by 1.2 than the regression's: a pose that is not there is worse than one that is not reported.
   const auto log_odds = [](float share) { return std::log((share + 0.02F) / (1.02F - share)); };
   // The outline of a right pose agrees in nine of ten places; what is above says nothing.
-  const float outline = outline_weight(evidence.lock) * std::min(0.0F, log_odds(evidence.edge) - log_odds(0.9F));
+  const float outline = outline_weight(evidence) * std::min(0.0F, log_odds(evidence.edge) - log_odds(0.9F));
   // Only as far as the surface could not lie elsewhere does its size speak for a pose.
   const float locked_surface = std::min(evidence.lock, 0.3F) * std::log1p(evidence.confirmed);
   // Where the surface could slide it fits closely, or is another one.
   const float sliding_misfit = evidence.misfit * std::exp(-evidence.lock / 0.05F);
-  const float sum = -11.27F + 1.5F * log_odds(evidence.visible) - 0.64F * log_odds(evidence.measured) +
-                    3.26F * outline - 8.09F * evidence.misfit - 8.49F * sliding_misfit -
-                    1.15F * std::log1p(evidence.gap) + 2.8F * std::log1p(evidence.outline) + 3.87F * locked_surface +
+  const float sum = -11.5F + 1.54F * log_odds(evidence.visible) - 0.75F * log_odds(evidence.measured) +
+                    3.13F * outline - 9.4F * evidence.misfit - 8.93F * sliding_misfit -
+                    1.3F * std::log1p(evidence.gap) + 2.94F * std::log1p(evidence.outline) + 3.8F * locked_surface +
                     (in_company ? 2.4F : 0.0F);
   return 1.0F / (1.0F + std::exp(-sum));
 }
@@ -43,7 +44,7 @@ std::array<TestOutcome, evidence_test_count> test_outcomes(const Evidence& evide
            {Rejection::overlap, evidence.overlap, thresholds.minimum_overlap, true},
            {Rejection::overlap, evidence.purity, parameters.minimum_purity, true},
            {Rejection::boundary, evidence.boundary, thresholds.maximum_boundary, false},
-           {Rejection::edge, evidence.edge, thresholds.minimum_edge * outline_weight(evidence.lock), true},
+           {Rejection::edge, evidence.edge, thresholds.minimum_edge * outline_weight(evidence), true},
            {Rejection::below_plane, evidence.below, thresholds.maximum_below, false}}};
 }
 

@@ -14,7 +14,7 @@ namespace graspd {
 [[nodiscard]] float score_of(const Evidence& evidence, bool in_company);
 
 /// An instance with this score or more, taken alone, is company for others of its part.
-inline constexpr float sure_score = 0.55F;
+inline constexpr float sure_score = 0.5F;
 
 /// A figure held against its threshold.
 struct TestOutcome {

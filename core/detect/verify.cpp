@@ -143,6 +143,13 @@ float share_inside(const SceneMap& map, const Bank& bank, const RigidTransform& 
   return static_cast<float>(std::max(inside, 1)) / static_cast<float>(bank.surface.size());
 }
 
+/// Evidence::blur for a part of this sampling (metres).
+float blur_of(const SceneMap& map, float sampling) {
+  constexpr float sharp = 0.1F;
+  constexpr float blurred = 0.5F;
+  return std::clamp((map.edge_blur / sampling - sharp) / (blurred - sharp), 0.0F, 1.0F);
+}
+
 bool touches_border(const ImageRectangle& rectangle, const Camera& camera) {
   return rectangle.left == 0 || rectangle.top == 0 || rectangle.left + rectangle.width == camera.width ||
          rectangle.top + rectangle.height == camera.height;
@@ -151,12 +158,9 @@ bool touches_border(const ImageRectangle& rectangle, const Camera& camera) {
 }  // namespace
 
 float surface_tolerance(const SceneMap& map, const Bank& bank, const VerifyParameters& parameters) {
-  constexpr float sharp = 0.1F;
-  constexpr float blurred = 0.5F;
   const float sampling = bank.part->sampling;
-  const float share = std::clamp((map.edge_blur / sampling - sharp) / (blurred - sharp), 0.0F, 1.0F);
   const float widest = std::max(parameters.tolerance, parameters.blurred_tolerance);
-  return (parameters.tolerance + share * (widest - parameters.tolerance)) * sampling;
+  return (parameters.tolerance + blur_of(map, sampling) * (widest - parameters.tolerance)) * sampling;
 }
 
 RenderedModel render_model(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part,
@@ -248,6 +252,7 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   const float voxel_cells = bank.part->sampling / map.footprint(depth_sum / rendered);
   evidence.confirmed = confirmed / (voxel_cells * voxel_cells);
   evidence.gap = gap / (voxel_cells * voxel_cells);
+  evidence.blur = blur_of(map, bank.part->sampling);
   evidence.outline = static_cast<float>(outline.length) / voxel_cells;
   evidence.lock = normal_count > 0.0F ? lock_of(normals / normal_count) : 0.0F;
   const int decided = parameters.edges ? outline.consistent + outline.inconsistent : 0;

@@ -74,6 +74,14 @@ TEST(Score, OutlineDecidesWhereTheSurfaceCouldSlide) {
   EXPECT_GT(loss(0.0F), 3.0F * loss(0.3F));
 }
 
+TEST(Score, OutlineCountsLessWhereTheSensorSmearsIt) {
+  Evidence evidence = doubtful_evidence();
+  evidence.edge = 0.5F;
+  const float sharp = score_of(evidence, true);
+  evidence.blur = 1.0F;
+  EXPECT_GT(score_of(evidence, true), 2.0F * sharp);
+}
+
 TEST(Score, CompanyOfASureInstanceMakesAnotherLikelier) {
   const Evidence evidence = doubtful_evidence();
   EXPECT_GT(score_of(evidence, true), 5.0F * score_of(evidence, false));
