@@ -16,12 +16,17 @@ bool is_rigid(const RigidTransform& t) {
 
 bool is_identity(const RigidTransform& t) { return t.translation.isZero(1e-6F) && t.rotation.isIdentity(1e-5F); }
 
+bool is_within(float value, float low, float high) { return value >= low && value <= high; }
+
 const char* part_fault(const BankPart& part) {
   if (std::find(part.name.begin(), part.name.end(), '\0') == part.name.end()) return "the part's name has no end";
   const bool lengths = std::isfinite(part.diameter) && part.diameter > 0.0F && std::isfinite(part.sampling) &&
                        part.sampling > 0.0F && part.centre.allFinite() && part.box_min.allFinite() &&
                        part.box_max.allFinite() && (part.box_min.array() <= part.box_max.array()).all();
   if (!lengths) return "the part's measures are not numbers or not positive";
+  if (!is_within(part.sampling / part.diameter, 1e-4F, 1.0F) || !is_within(part.diameter, 1e-4F, 1e3F)) {
+    return "the part's diameter and sampling contradict each other";
+  }
   if (part.symmetry_continuous > 1 || !part.symmetry_axis.point.allFinite() || !is_unit(part.symmetry_axis.direction)) {
     return "the part's symmetry axis is not a line";
   }
@@ -42,6 +47,8 @@ const char* grid_fault(const Bank& bank) {
       grid.distance_bins > maximum_cells / (angles * angles * angles)) {
     return "the grid has an impossible number of cells";
   }
+  const float reach = grid.distance_step * static_cast<float>(grid.distance_bins);
+  if (!is_within(reach / bank.part->diameter, 1e-3F, 1e3F)) return "the grid's reach does not suit the part's diameter";
   if (bank.cell_offsets.size() != std::size_t{grid.cell_count()} + 1) return "the table does not fit its grid";
   if (bank.cell_offsets.front() != 0 || bank.cell_offsets.back() != bank.entries.size() ||
       !std::is_sorted(bank.cell_offsets.begin(), bank.cell_offsets.end())) {

@@ -17,12 +17,12 @@ NeighbourGrid build_neighbour_grid(std::span<const OrientedPoint> points, float 
   if (points.empty()) low = high = Vector3::Zero();
   grid.origin = low;
   grid.edge = edge;
-  const auto cells_at = [&](float candidate) {
-    return ((high - low) / candidate).array().floor().matrix().cast<std::int64_t>() +
-           Eigen::Matrix<std::int64_t, 3, 1>::Ones();
+  // In double: the cells of an edge far too small are more than an integer can count.
+  const auto cells_at = [&](float candidate) -> Eigen::Array3d {
+    return ((high - low).array().cast<double>() / double{candidate}).floor() + 1.0;
   };
-  while (cells_at(grid.edge).prod() >= static_cast<std::int64_t>(most_grid_cells)) grid.edge *= 1.25F;
-  grid.size = cells_at(grid.edge).cast<int>();
+  while (!(cells_at(grid.edge).prod() < static_cast<double>(most_grid_cells))) grid.edge *= 1.25F;
+  grid.size = cells_at(grid.edge).cast<int>().matrix();
   const auto cell_count = static_cast<std::size_t>(grid.size.prod());
   grid.starts = storage.starts.first(cell_count + 1);
 
