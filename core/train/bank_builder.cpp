@@ -12,6 +12,7 @@
 #include "core/train/part_mesh.hpp"
 #include "core/train/ppf_table.hpp"
 #include "core/train/self_visibility.hpp"
+#include "core/train/surface_index.hpp"
 #include "core/train/surface_sampling.hpp"
 #include "core/train/symmetry_detection.hpp"
 #include "core/train/symmetry_group.hpp"
@@ -269,9 +270,10 @@ Result<std::vector<std::byte>> learn_bank(const PartDescription& part, std::vect
       parameters.full_model ? whole_part(candidates, report)
                             : refine_views(candidates, storage.symmetry, weights, mesh.diameter, parameters, report);
   const GeneralisationSettings generalisation{parameters.generalisation, voxel, storage.part.centre};
+  const SurfaceIndex samples(candidates.samples, voxel);
   std::vector<GeneralisedView> views;
   for (const RefinedView& view : refined) {
-    views.push_back(generalise_view(view, candidates, storage.symmetry, generalisation));
+    views.push_back(generalise_view(view, candidates, samples, storage.symmetry, generalisation));
     limit_points(static_cast<std::size_t>(parameters.maximum_view_points), mesh.diameter, views.back().references);
   }
   add_pictures(candidates, report);

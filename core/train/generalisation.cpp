@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "core/train/point_grid.hpp"
-#include "core/train/surface_index.hpp"
 #include "core/train/voxel_sampling.hpp"
 
 namespace graspd {
@@ -25,16 +24,6 @@ const std::vector<std::size_t>& twins_of(const CandidateViews& candidates, std::
   while (candidates.orbits[first].empty()) --first;
   return candidates.orbits[first];
 }
-
-/// Finds, for any point, the sample that stands for it.
-class SampleFinder {
- public:
-  SampleFinder(const CandidateViews& candidates, float voxel) : index_(candidates.samples, voxel) {}
-  [[nodiscard]] std::size_t nearest(const OrientedPoint& point) const { return index_.nearest(point); }
-
- private:
-  SurfaceIndex index_;
-};
 
 /// What any of the candidates shows: samples that rendered ones see, points that were measured.
 std::vector<OrientedPoint> united_points(const CandidateViews& candidates, std::span<const std::size_t> members) {
@@ -55,10 +44,10 @@ std::vector<OrientedPoint> united_points(const CandidateViews& candidates, std::
   return points;
 }
 
-std::vector<ViewPoint> averaged(const SampleFinder& finder, std::span<const OrientedPoint> points, float voxel) {
+std::vector<ViewPoint> averaged(const SurfaceIndex& samples, std::span<const OrientedPoint> points, float voxel) {
   std::vector<ViewPoint> result;
   for (const VoxelPoint& p : voxel_average(points, voxel, normal_group, minimum_members)) {
-    result.push_back({p.mean, finder.nearest(p.mean)});
+    result.push_back({p.mean, samples.nearest(p.mean)});
   }
   return result;
 }
@@ -123,7 +112,7 @@ std::vector<OrientedPoint> shown_points(const CandidateViews& candidates, std::s
   return points;
 }
 
-GeneralisedView generalise_view(const RefinedView& view, const CandidateViews& candidates,
+GeneralisedView generalise_view(const RefinedView& view, const CandidateViews& candidates, const SurfaceIndex& samples,
                                 const SymmetryGroup& symmetry, const GeneralisationSettings& settings) {
   GeneralisedView result;
   for (const std::size_t fused : view.fused) {
@@ -134,20 +123,19 @@ GeneralisedView generalise_view(const RefinedView& view, const CandidateViews& c
   result.seen_from.erase(std::unique(result.seen_from.begin(), result.seen_from.end()), result.seen_from.end());
 
   const float voxel = settings.voxel;
-  const SampleFinder finder(candidates, voxel);
   std::vector<OrientedPoint> united = united_points(candidates, view.fused);
   if (settings.method == Generalisation::smooth) united = smoothed(united, voxel);
   if (symmetry.trivial()) {
-    result.references = averaged(finder, united, voxel);
+    result.references = averaged(samples, united, voxel);
     return result;
   }
   // Off every plane of symmetry, or both members of an orbit would be as far as each other.
   const Vector3 direction = (candidates.directions[view.candidate] + Vector3(0.018F, 0.024F, 0.04F)).normalized();
   std::vector<OrientedPoint> moved;
   for (const OrientedPoint& point : united) moved.push_back(towards(point, symmetry, settings.centre, direction));
-  result.references = averaged(finder, moved, voxel);
-  result.others = averaged(finder, united, voxel);
-  result.partners = averaged(finder, united_points(candidates, result.seen_from), voxel);
+  result.references = averaged(samples, moved, voxel);
+  result.others = averaged(samples, united, voxel);
+  result.partners = averaged(samples, united_points(candidates, result.seen_from), voxel);
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/train/bank_builder.hpp"
 #include "core/train/candidate_views.hpp"
+#include "core/train/surface_index.hpp"
 #include "core/train/symmetry_group.hpp"
 #include "core/train/view_refinement.hpp"
 
@@ -36,9 +37,10 @@ struct GeneralisationSettings {
 /// Unites what the fused candidates show and averages it over voxels, or smooths what the one candidate shows
 /// (paper 2.3). With a symmetry, references are taken from one member of each orbit, the one towards the view, and
 /// their partners from everything that a symmetric twin of the view shows, so that a reference meets every pair which
-/// any point of its orbit has.
+/// any point of its orbit has. `samples` is an index over the samples of `candidates`.
 [[nodiscard]] GeneralisedView generalise_view(const RefinedView& view, const CandidateViews& candidates,
-                                              const SymmetryGroup& symmetry, const GeneralisationSettings& settings);
+                                              const SurfaceIndex& samples, const SymmetryGroup& symmetry,
+                                              const GeneralisationSettings& settings);
 
 /// What a candidate shows: surface samples, or the points that were measured.
 [[nodiscard]] std::vector<OrientedPoint> shown_points(const CandidateViews& candidates, std::size_t candidate);

@@ -6,6 +6,7 @@
 #include "core/train/generalisation.hpp"
 #include "core/train/part_mesh.hpp"
 #include "core/train/self_visibility.hpp"
+#include "core/train/surface_index.hpp"
 #include "core/train/surface_sampling.hpp"
 #include "core/train/view_refinement.hpp"
 #include "core/train/view_sphere.hpp"
@@ -196,8 +197,9 @@ TEST(Generalisation, FusionUnitesAndSmoothingKeepsToOneView) {
   const Studio studio(shapes::cylinder(0.012F, 0.03F), 0.0384F, view_sphere(162));
   BankReport report;
   const auto kept = studio.refined({}, {}, report);
+  const SurfaceIndex samples(studio.samples(), 0.002F);
   const auto points = [&](const RefinedView& view, Generalisation method) {
-    return generalise_view(view, studio.candidates, {}, {method, 0.002F, Vector3::Zero()}).references.size();
+    return generalise_view(view, studio.candidates, samples, {}, {method, 0.002F, Vector3::Zero()}).references.size();
   };
   ASSERT_GT(kept[0].fused.size(), 1U);
   const RefinedView alone{kept[0].candidate, {kept[0].candidate}, kept[0].completeness};
@@ -213,8 +215,9 @@ TEST(Generalisation, ReferencesOfASymmetricPartLieInOneSlice) {
   BankBuildParameters parameters;
   parameters.minimum_completeness = 0.1F;
   const auto kept = studio.refined(symmetry, parameters, report);
+  const SurfaceIndex samples(studio.samples(), 0.002F);
   const GeneralisedView view =
-      generalise_view(kept[0], studio.candidates, symmetry, {Generalisation::fuse, 0.002F, Vector3::Zero()});
+      generalise_view(kept[0], studio.candidates, samples, symmetry, {Generalisation::fuse, 0.002F, Vector3::Zero()});
   EXPECT_LT(view.references.size() * 5, view.partners.size());
   const Vector3 first = view.references[0].point.position;
   for (const ViewPoint& r : view.references) {
