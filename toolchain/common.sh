@@ -67,8 +67,7 @@ build_preset() {
   local preset=$1
   shift
   step "Configuring $preset" "configure-$preset" cmake --preset "$preset" || return 1
-  step "Building $preset" "build-$preset" cmake --build "build/$preset" --parallel "$cores" "$@" && return
-  grep -q '^GRASPD_UNITS:BOOL=ON' "build/$preset/CMakeCache.txt" || return 1
+  step "Building $preset" "build-$preset" cmake --build --preset "$preset" --parallel "$cores" "$@" && return
   step "Configuring $preset, source by source" "configure-$preset" cmake --preset "$preset" -DGRASPD_UNITS=OFF || return 1
-  step "Building $preset, source by source" "build-$preset" cmake --build "build/$preset" --parallel "$cores" "$@"
+  step "Building $preset, source by source" "build-$preset" cmake --build --preset "$preset" --parallel "$cores" "$@"
 }
