@@ -293,7 +293,7 @@ SettingsTable SettingsTable::table(std::string_view key) {
   return {*file_, take(key, TomlValue::Kind::table), full_name(key)};
 }
 
-std::span<const std::pair<std::string, TomlValue>> SettingsTable::entries() {
+std::span<const TomlEntry> SettingsTable::entries() {
   if (table_ == nullptr) return {};
   for (const auto& [key, value] : table_->entries) known_.push_back(key);
   return table_->entries;

@@ -86,7 +86,7 @@ class SettingsTable {
   /// The table below `key`, or one that is not present.
   [[nodiscard]] SettingsTable table(std::string_view key);
   /// Every entry, for a table whose keys are names that others gave.
-  [[nodiscard]] std::span<const std::pair<std::string, TomlValue>> entries();
+  [[nodiscard]] std::span<const TomlEntry> entries();
   /// The tables of [[key]], or none.
   [[nodiscard]] std::vector<SettingsTable> tables(std::string_view key);
 

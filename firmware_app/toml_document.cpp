@@ -27,10 +27,10 @@ TomlValue converted_table(const toml::table& table) {
     TomlValue value = converted(node);
     // An implicit table ([a.b] makes an `a`) has no place of its own; its key has.
     value.line = std::max(value.line, static_cast<int>(key.source().begin.line));
-    result.entries.emplace_back(std::string(key.str()), std::move(value));
+    result.entries.push_back({std::string(key.str()), std::move(value)});
   }
   std::stable_sort(result.entries.begin(), result.entries.end(),
-                   [](const auto& a, const auto& b) { return a.second.line < b.second.line; });
+                   [](const auto& a, const auto& b) { return a.value.line < b.value.line; });
   return result;
 }
 

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "core/status.hpp"
 
 namespace graspd {
+
+struct TomlEntry;
 
 /// A value of a TOML file with the line on which it stands, so that every complaint can name it.
 struct TomlValue {
@@ -19,11 +21,17 @@ struct TomlValue {
   std::int64_t integer = 0;
   double real = 0;  ///< Set for integers, too.
   std::string text;
-  std::vector<TomlValue> elements;                         ///< Of an array.
-  std::vector<std::pair<std::string, TomlValue>> entries;  ///< Of a table, in the order of the file.
+  std::vector<TomlValue> elements;  ///< Of an array.
+  std::vector<TomlEntry> entries;   ///< Of a table, in the order of the file.
 
   /// The entry `key` of a table, or null.
   [[nodiscard]] const TomlValue* find(std::string_view key) const;
+};
+
+/// A key of a table and what it names.
+struct TomlEntry {
+  std::string key;
+  TomlValue value;
 };
 
 /// What a kind is called in a message: "a number", "a table" ...
