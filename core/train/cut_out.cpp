@@ -20,7 +20,7 @@ constexpr int alignment_steps = 8;
 struct Crop {
   Camera camera;
   std::vector<Vector3> measured;  ///< Points that coincide with the model; z = 0: none.
-  std::vector<float> model;       ///< The model's depth; 0: none.
+  std::vector<Vector3> model;     ///< The model's points; z = 0: none.
 };
 
 Crop coinciding_points(const DepthFrame& frame, const RigidTransform& camera_from_part, const MeshView& mesh,
@@ -29,14 +29,17 @@ Crop coinciding_points(const DepthFrame& frame, const RigidTransform& camera_fro
   const ImageRectangle bounds = projected_bounds(mesh, camera_from_part, frame.camera);
   if (bounds.empty()) return crop;
   crop.camera = cropped(frame.camera, bounds);
-  crop.model.resize(crop.camera.pixel_count());
-  render_depth(mesh, camera_from_part, crop.camera, crop.model);
+  std::vector<float> depth(crop.camera.pixel_count());
+  render_depth(mesh, camera_from_part, crop.camera, depth);
   crop.measured.assign(crop.camera.pixel_count(), Vector3::Zero());
+  crop.model.assign(crop.camera.pixel_count(), Vector3::Zero());
   for (int v = 0; v < crop.camera.height; ++v) {
     for (int u = 0; u < crop.camera.width; ++u) {
       const std::size_t place = crop.camera.index(u, v);
+      if (!(depth[place] > 0.0F)) continue;
+      crop.model[place] = crop.camera.point(static_cast<float>(u), static_cast<float>(v), depth[place]);
       const float z = frame.at(u + bounds.left, v + bounds.top);
-      if (z > 0.0F && crop.model[place] > 0.0F && std::abs(z - crop.model[place]) < coincidence) {
+      if (z > 0.0F && std::abs(z - depth[place]) < coincidence) {
         crop.measured[place] = crop.camera.point(static_cast<float>(u), static_cast<float>(v), z);
       }
     }
@@ -81,15 +84,6 @@ CutOut cut_out(const DepthFrame& frame, const RigidTransform& camera_from_part, 
   view.direction = (part_from_camera.translation - centre).normalized();
   const Crop crop = coinciding_points(frame, camera_from_part, mesh, parameters.coincidence);
   if (crop.measured.empty()) return view;
-  std::vector<Vector3> model(crop.model.size(), Vector3::Zero());
-  for (int v = 0; v < crop.camera.height; ++v) {
-    for (int u = 0; u < crop.camera.width; ++u) {
-      const float z = crop.model[crop.camera.index(u, v)];
-      if (z > 0.0F) {
-        model[crop.camera.index(u, v)] = crop.camera.point(static_cast<float>(u), static_cast<float>(v), z);
-      }
-    }
-  }
   const float distance = (camera_from_part * centre).z();
   const float pixels = parameters.spacing * crop.camera.fx / std::max(distance, 1e-3F);
   const int step = std::max(1, static_cast<int>(pixels));
@@ -99,7 +93,7 @@ CutOut cut_out(const DepthFrame& frame, const RigidTransform& camera_from_part, 
       if (crop.measured[crop.camera.index(u, v)].z() == 0.0F) continue;
       OrientedPoint measured;
       OrientedPoint expected;
-      if (!fit_plane(crop, u, v, radius, crop.measured, measured) || !fit_plane(crop, u, v, 1, model, expected))
+      if (!fit_plane(crop, u, v, radius, crop.measured, measured) || !fit_plane(crop, u, v, 1, crop.model, expected))
         continue;
       if (measured.normal.dot(expected.normal) < std::cos(parameters.same_normal)) continue;
       view.points.push_back(part_from_camera * measured);
