@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "core/geometry/rigid_transform.hpp"
 
 namespace graspd {
@@ -11,6 +13,11 @@ struct Box {
 
   [[nodiscard]] Vector3 centre() const { return 0.5F * (lower + upper); }
   [[nodiscard]] Vector3 half_size() const { return 0.5F * (upper - lower); }
+  /// One of the eight corners: bits 0, 1 and 2 of `number` ask for the upper end along x, y and z.
+  [[nodiscard]] Vector3 corner(std::size_t number) const {
+    return {((number & 1U) != 0 ? upper : lower).x(), ((number & 2U) != 0 ? upper : lower).y(),
+            ((number & 4U) != 0 ? upper : lower).z()};
+  }
   [[nodiscard]] bool contains(const Vector3& point) const {
     return (point.array() >= lower.array()).all() && (point.array() <= upper.array()).all();
   }

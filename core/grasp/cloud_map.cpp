@@ -105,11 +105,8 @@ CellRange cells_of(const Camera& camera, const RigidTransform& camera_from_box_f
   CellRange range;
   range.nearest = std::numeric_limits<float>::max();
   range.furthest = -std::numeric_limits<float>::max();
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vector3 local((corner & 1) != 0 ? box.upper.x() : box.lower.x(),
-                        (corner & 2) != 0 ? box.upper.y() : box.lower.y(),
-                        (corner & 4) != 0 ? box.upper.z() : box.lower.z());
-    const Vector3 point = camera_from_box_frame * local;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const Vector3 point = camera_from_box_frame * box.corner(corner);
     range.nearest = std::min(range.nearest, point.z());
     range.furthest = std::max(range.furthest, point.z());
     const Eigen::Vector2f cell = camera.project(point);

@@ -129,11 +129,7 @@ void draw_pieces(const Drafter& drafter, const RigidTransform& camera_from_tool,
                  Colour colour, float thickness) {
   for (const Box& box : pieces) {
     std::array<Vector3, 8> corners;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      corners[i] = camera_from_tool * Vector3((i & 1U) != 0 ? box.upper.x() : box.lower.x(),
-                                              (i & 2U) != 0 ? box.upper.y() : box.lower.y(),
-                                              (i & 4U) != 0 ? box.upper.z() : box.lower.z());
-    }
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = camera_from_tool * box.corner(i);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       for (const std::size_t edge : {std::size_t{1}, std::size_t{2}, std::size_t{4}}) {
         if ((i & edge) == 0) drafter.line(corners[i], corners[i | edge], colour, thickness);
