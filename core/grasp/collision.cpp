@@ -26,20 +26,6 @@ class NearestDistances {
   std::size_t count_;
 };
 
-/// The rays of a map's cells in the tool's frame, each a metre deep.
-struct Rays {
-  explicit Rays(const Camera& camera_, const RigidTransform& tool_from_camera_)
-      : camera(camera_), tool_from_camera(tool_from_camera_), step(tool_from_camera.rotation.col(0) / camera.fx) {}
-  [[nodiscard]] Vector3 row(int v) const {
-    return tool_from_camera.rotation * camera.point(0.0F, static_cast<float>(v), 1.0F);
-  }
-  [[nodiscard]] Vector3 at(const Vector3& row_ray, int u) const { return row_ray + static_cast<float>(u) * step; }
-
-  const Camera& camera;
-  const RigidTransform& tool_from_camera;
-  Vector3 step;
-};
-
 /// Whether the bounds of a tile (camera frame) may reach into a box (tool frame).
 bool tile_reaches(const Box& tile, const RigidTransform& tool_from_camera, const Matrix3& size_in_tool,
                   const Box& box) {
@@ -72,25 +58,35 @@ void visit_tiles(const CloudMap& map, const CellRange& range, const Wanted& want
   }
 }
 
+/// Calls `visit` with the depth and the ray (tool frame, a metre deep) of every cell of `range` that was measured
+/// between its nearest and its furthest depth, in tiles that `wanted` asks for, until it returns true.
+template <class Wanted, class Visit>
+void visit_cells(const CloudMap& map, const CellRange& range, const RigidTransform& tool_from_camera,
+                 const Wanted& wanted, const Visit& visit) {
+  const Vector3 ray_step = tool_from_camera.rotation.col(0) / map.camera.fx;
+  visit_tiles(map, range, wanted, [&](const CellRange& cells) {
+    for (int v = cells.first_v; v <= cells.last_v; ++v) {
+      const Vector3 row_ray = tool_from_camera.rotation * map.camera.point(0.0F, static_cast<float>(v), 1.0F);
+      const float* const row = map.depth.data() + map.camera.index(0, v);
+      for (int u = cells.first_u; u <= cells.last_u; ++u) {
+        const float depth = row[u];
+        if (!(depth > 0.0F && depth >= cells.nearest && depth <= cells.furthest)) continue;
+        if (visit(depth, Vector3(row_ray + static_cast<float>(u) * ray_step))) return true;
+      }
+    }
+    return false;
+  });
+}
+
 /// Calls `visit` with every measured point (tool frame) that may lie in `box`, until it returns true.
 template <class Visit>
 void visit_points(const CloudMap& map, const RigidTransform& camera_from_tool, const RigidTransform& tool_from_camera,
                   const Box& box, const Visit& visit) {
   const CellRange range = cells_of(map.camera, camera_from_tool, box);
-  const Rays rays(map.camera, tool_from_camera);
   const Matrix3 size_in_tool = tool_from_camera.rotation.cwiseAbs();
   const auto wanted = [&](const Box& tile) { return tile_reaches(tile, tool_from_camera, size_in_tool, box); };
-  visit_tiles(map, range, wanted, [&](const CellRange& cells) {
-    for (int v = cells.first_v; v <= cells.last_v; ++v) {
-      const Vector3 row_ray = rays.row(v);
-      const float* const row = map.depth.data() + map.camera.index(0, v);
-      for (int u = cells.first_u; u <= cells.last_u; ++u) {
-        const float depth = row[u];
-        if (!(depth > 0.0F && depth >= cells.nearest && depth <= cells.furthest)) continue;
-        if (visit(Vector3(depth * rays.at(row_ray, u) + tool_from_camera.translation))) return true;
-      }
-    }
-    return false;
+  visit_cells(map, range, tool_from_camera, wanted, [&](float depth, const Vector3& ray) {
+    return visit(Vector3(depth * ray + tool_from_camera.translation));
   });
 }
 
@@ -101,29 +97,23 @@ bool is_part(const Vector3& point, const GripperPiece& piece, const Gripper& gri
 /// The volume behind measured surfaces that a box covers, cubic metres.
 float hidden_volume(const CloudMap& map, const RigidTransform& camera_from_tool, const RigidTransform& tool_from_camera,
                     const Box& box) {
-  const CellRange range = cells_of(map.camera, camera_from_tool, box);
-  const Rays rays(map.camera, tool_from_camera);
+  CellRange range = cells_of(map.camera, camera_from_tool, box);
+  // Whatever stands in front of the box hides it, however far in front.
+  range.nearest = 0.0F;
   const float cell = 1.0F / (map.camera.fx * map.camera.fy);
   const Vector3 to_lower = box.lower - tool_from_camera.translation;
   const Vector3 to_upper = box.upper - tool_from_camera.translation;
   float volume = 0.0F;
   const auto wanted = [&](const Box& tile) { return tile.lower.z() < range.furthest; };
-  visit_tiles(map, range, wanted, [&](const CellRange& cells) {
-    for (int v = cells.first_v; v <= cells.last_v; ++v) {
-      const Vector3 row_ray = rays.row(v);
-      const float* const row = map.depth.data() + map.camera.index(0, v);
-      for (int u = cells.first_u; u <= cells.last_u; ++u) {
-        const float depth = row[u];
-        if (!(depth > 0.0F && depth < cells.furthest)) continue;
-        const Vector3 inverse_ray = rays.at(row_ray, u).cwiseInverse();
-        const Vector3 a = to_lower.cwiseProduct(inverse_ray);
-        const Vector3 b = to_upper.cwiseProduct(inverse_ray);
-        const float enter = std::max(a.cwiseMin(b).maxCoeff(), depth);
-        const float leave = a.cwiseMax(b).minCoeff();
-        if (!(leave > enter)) continue;
-        const float middle = 0.5F * (enter + leave);
-        volume += (leave - enter) * middle * middle * cell;
-      }
+  visit_cells(map, range, tool_from_camera, wanted, [&](float depth, const Vector3& ray) {
+    const Vector3 inverse_ray = ray.cwiseInverse();
+    const Vector3 a = to_lower.cwiseProduct(inverse_ray);
+    const Vector3 b = to_upper.cwiseProduct(inverse_ray);
+    const float enter = std::max(a.cwiseMin(b).maxCoeff(), depth);
+    const float leave = a.cwiseMax(b).minCoeff();
+    if (leave > enter) {
+      const float middle = 0.5F * (enter + leave);
+      volume += (leave - enter) * middle * middle * cell;
     }
     return false;
   });
