@@ -1,7 +1,6 @@
 #include "core/grasp/checks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "core/grasp/collision.hpp"
@@ -57,13 +56,9 @@ bool retreat_collides(const Attempt& attempt) {
   const CollisionParameters& collision = attempt.parameters.collision;
   if (sweep_meets_walls(attempt.around.walls, sweep, collision.minimum_clearance)) return true;
   if (sweep_collides(*attempt.around.cloud, sweep, attempt.part, collision)) return true;
-  if (attempt.around.walls.count == 0) return false;
-  std::array<Vector3, carried_points> carried;
-  const std::size_t count = std::min(carried.size(), attempt.bank.surface.size());
-  for (std::size_t i = 0; i < count; ++i) carried[i] = attempt.bank.surface[i].position;
-  return carried_meets_walls(attempt.around.walls, attempt.camera_from_part,
-                             {attempt.bank.part->box_min, attempt.bank.part->box_max}, motion,
-                             attempt.tool.contact_margin, {carried.data(), count});
+  return carried_meets_walls(
+      attempt.around.walls, attempt.camera_from_part, {attempt.bank.part->box_min, attempt.bank.part->box_max}, motion,
+      attempt.tool.contact_margin, attempt.bank.surface.first(std::min(carried_points, attempt.bank.surface.size())));
 }
 
 /// The first test that fails with the jaws this far open.

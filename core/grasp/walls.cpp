@@ -10,7 +10,6 @@ BinWalls bin_walls(const BinParameters& bin, const Vector3& up, const RigidTrans
   result.camera_from_bin = camera_from_robot * bin.robot_from_bin;
   const Vector3 half = 0.5F * bin.inner_size;
   const Vector3 outer = half + Vector3::Constant(bin.wall);
-  result.inside = {-half, half};
   result.thickness = bin.wall;
   const bool z_is_up = bin.robot_from_bin.rotation.col(2).dot(up) >= 0.0F;
   const float rim_low = z_is_up ? -outer.z() : -half.z();
@@ -41,18 +40,19 @@ bool sweep_meets_walls(const BinWalls& walls, const Sweep& sweep, float clearanc
 }
 
 bool carried_meets_walls(const BinWalls& walls, const RigidTransform& camera_from_part, const Box& part_bounds,
-                         const Vector3& motion, float tolerance, std::span<const Vector3> points) {
+                         const Vector3& motion, float tolerance, std::span<const SurfacePoint> points) {
   if (walls.count == 0) return false;
   const RigidTransform bin_from_part = inverse(walls.camera_from_bin) * camera_from_part;
   const Vector3 way = walls.camera_from_bin.rotation.transpose() * motion;
+  const RigidTransform part_from_bin = inverse(bin_from_part);
+  const Vector3 way_of_part = part_from_bin.rotation * way;
   const bool far_off = std::none_of(walls.all().begin(), walls.all().end(), [&](const Box& wall) {
-    const RigidTransform part_from_bin = inverse(bin_from_part);
-    return sweep_meets_box(part_bounds, bin_from_part.rotation.transpose() * way, part_from_bin, wall);
+    return sweep_meets_box(part_bounds, way_of_part, part_from_bin, wall);
   });
   if (far_off) return false;
   const float forgiven = std::min(tolerance, 0.4F * walls.thickness);
-  return std::any_of(points.begin(), points.end(), [&](const Vector3& point) {
-    const Vector3 start = bin_from_part * point;
+  return std::any_of(points.begin(), points.end(), [&](const SurfacePoint& point) {
+    const Vector3 start = bin_from_part * point.position;
     return std::any_of(walls.all().begin(), walls.all().end(), [&](const Box& wall) {
       // The point moves, the wall stands still: as if the wall came towards the point.
       return sweeps_over(grown(wall, -forgiven), -way, start);

@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "core/bank/bank.hpp"
 #include "core/grasp/collision.hpp"
 
 namespace graspd {
@@ -10,7 +11,6 @@ namespace graspd {
 /// The bin's four walls and its floor, as boxes in the bin's frame.
 struct BinWalls {
   RigidTransform camera_from_bin;
-  Box inside;  ///< Bin frame.
   std::array<Box, 5> walls;
   std::size_t count = 0;  ///< 0: there is no bin.
   float thickness = 0;
@@ -24,10 +24,10 @@ struct BinWalls {
 /// True when the gripper on its way comes as near to a wall as `clearance`, metres.
 [[nodiscard]] bool sweep_meets_walls(const BinWalls& walls, const Sweep& sweep, float clearance);
 
-/// True when one of `points` (part frame), carried by `motion` (metres, camera frame), passes through a wall, deeper
-/// than `tolerance`: the part may lean on a wall, and its pose has an error.
+/// True when one of `points` (of the part, in its frame), carried by `motion` (metres, camera frame), passes through a
+/// wall, deeper than `tolerance`: the part may lean on a wall, and its pose has an error.
 [[nodiscard]] bool carried_meets_walls(const BinWalls& walls, const RigidTransform& camera_from_part,
                                        const Box& part_bounds, const Vector3& motion, float tolerance,
-                                       std::span<const Vector3> points);
+                                       std::span<const SurfacePoint> points);
 
 }  // namespace graspd
