@@ -36,6 +36,9 @@ struct BinParameters {
   bool fitted = false;                   ///< The place is rough: look in each frame where the bin stands.
   float search = 0.040F;                 ///< When fitted: how far off it may be along x and y, metres, at most 0.2.
   float search_turn = 0.17453293F;       ///< The same for the turn about z, radians.
+
+  /// Whether the opening is where z points; else it is on the other side. `up` in the robot's frame.
+  [[nodiscard]] bool opens_along_z(const Vector3& up) const { return robot_from_bin.rotation.col(2).dot(up) >= 0.0F; }
 };
 
 /// How the tool leaves with the part.

@@ -11,7 +11,7 @@ BinWalls bin_walls(const BinParameters& bin, const Vector3& up, const RigidTrans
   const Vector3 half = 0.5F * bin.inner_size;
   const Vector3 outer = half + Vector3::Constant(bin.wall);
   result.thickness = bin.wall;
-  const bool z_is_up = bin.robot_from_bin.rotation.col(2).dot(up) >= 0.0F;
+  const bool z_is_up = bin.opens_along_z(up);
   const float rim_low = z_is_up ? -outer.z() : -half.z();
   const float rim_high = z_is_up ? half.z() : outer.z();
   for (const float side : {-1.0F, 1.0F}) {
