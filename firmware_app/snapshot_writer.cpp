@@ -7,7 +7,6 @@
 #include <ctime>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "core/grasp/checks.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/grasp/collision.hpp"
 #include "core/grasp/neighbours.hpp"
