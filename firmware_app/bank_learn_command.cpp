@@ -13,6 +13,7 @@
 #include "firmware_app/bank_output.hpp"
 #include "firmware_app/commands.hpp"
 #include "firmware_app/detection_session.hpp"
+#include "firmware_app/frame_file_switches.hpp"
 #include "firmware_app/learning_frames.hpp"
 #include "firmware_app/loaded_banks.hpp"
 #include "firmware_app/part_file.hpp"
@@ -27,10 +28,7 @@ struct LearnOptions {
   std::vector<std::string> frames;
   std::vector<int> images;
   std::string output;
-  std::string units = "mm";
-  std::string axes = "opencv";
-  std::string camera;
-  std::string empty;
+  FrameFileSwitches files;
   bool bootstrap = false;
   bool frames_only = false;
   float minimum_score = 0.8F;
@@ -157,23 +155,10 @@ class ViewCutter {
   DetectionSession session_;
 };
 
-Result<FrameFileOptions> frame_options(const LearnOptions& options) {
-  FrameFileOptions files;
-  const Result<LengthUnit> unit = parse_length_unit(options.units);
-  if (!unit.ok()) return unit.status();
-  const Result<CameraAxes> axes = parse_camera_axes(options.axes);
-  if (!axes.ok()) return axes.status();
-  files.cloud_unit = unit.value();
-  files.cloud_axes = axes.value();
-  files.camera_file = options.camera;
-  files.empty_file = options.empty;
-  return files;
-}
-
 Status learn_one(const LearnOptions& options, Pupil& pupil, const std::string& output, const std::string& picture) {
   constexpr float least_visible = 0.4F;
   if (Status writable = check_writable(output); !writable.ok()) return writable;
-  const Result<FrameFileOptions> files = frame_options(options);
+  const Result<FrameFileOptions> files = options.files.options();
   if (!files.ok()) return files.status();
   options.switches.apply(pupil.build);
   const Result<PartMesh> mesh = prepare_mesh(pupil.part.mesh);
@@ -251,14 +236,7 @@ void add_bank_learn_command(CLI::App& bank_command, Status& outcome) {
       ->check(CLI::Range(0.0, 1.0));
   command->add_flag("--frames-only", options->frames_only, "Keep no rendered views for the sides that no frame shows");
   add_bank_switches(*command, options->switches);
-  command->add_option("--empty", options->empty, "The bin without parts (else the scene's own)");
-  command->add_option("--units", options->units, "Units of clouds")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"m", "mm"}));
-  command->add_option("--axes", options->axes, "Axes of clouds")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"opencv", "opengl"}));
-  command->add_option("--camera", options->camera, "Intrinsics of depth images, as camera.json");
+  add_frame_file_switches(*command, options->files);
   command->add_option("--threads", options->threads, "Threads of the detection")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));

@@ -8,13 +8,13 @@
 
 #include "drivers/files/atomic_file.hpp"
 #include "drivers/files/detection_picture.hpp"
-#include "drivers/files/load_frame.hpp"
 #include "drivers/system/clock.hpp"
 #include "firmware_app/commands.hpp"
 #include "firmware_app/configuration.hpp"
 #include "firmware_app/detection_report.hpp"
 #include "firmware_app/detection_session.hpp"
 #include "firmware_app/drawn_grasps.hpp"
+#include "firmware_app/frame_file_switches.hpp"
 #include "firmware_app/grasp_session.hpp"
 #include "firmware_app/loaded_banks.hpp"
 
@@ -24,11 +24,8 @@ namespace {
 struct DetectOptions {
   std::string frame;
   std::vector<std::string> banks;
-  std::string empty;
+  FrameFileSwitches files;
   bool no_background = false;
-  std::string units = "mm";
-  std::string axes = "opencv";
-  std::string camera;
   int threads = 1;
   float minimum_score = -1.0F;
   std::string json;
@@ -40,16 +37,9 @@ struct DetectOptions {
 };
 
 Result<LoadedFrame> read_frame(const DetectOptions& options) {
-  FrameFileOptions files;
-  const Result<LengthUnit> unit = parse_length_unit(options.units);
-  if (!unit.ok()) return unit.status();
-  const Result<CameraAxes> axes = parse_camera_axes(options.axes);
-  if (!axes.ok()) return axes.status();
-  files.cloud_unit = unit.value();
-  files.cloud_axes = axes.value();
-  files.camera_file = options.camera;
-  files.empty_file = options.empty;
-  return load_frame(options.frame, files);
+  const Result<FrameFileOptions> files = options.files.options();
+  if (!files.ok()) return files.status();
+  return load_frame(options.frame, files.value());
 }
 
 /// Puts a camera that is on the flange where it was when the frame was taken.
@@ -144,16 +134,8 @@ void add_detect_command(CLI::App& command_line, Status& outcome) {
   CLI::App* command = command_line.add_subcommand("detect", "Find parts in one recorded frame");
   command->add_option("FRAME", options->frame, "Depth image (PNG, TIFF) or point cloud (PLY, PCD)")->required();
   command->add_option("--bank", options->banks, "Banks of the parts to look for")->required();
-  command->add_option("--empty", options->empty, "The bin without parts, same kind of file (else the scene's own)");
+  add_frame_file_switches(*command, options->files);
   command->add_flag("--no-background", options->no_background, "Do without a frame of the empty bin");
-  command->add_option("--units", options->units, "Units of a cloud")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"m", "mm"}));
-  command
-      ->add_option("--axes", options->axes, "Axes of a cloud: y down and z away (opencv), or y up and z near (opengl)")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"opencv", "opengl"}));
-  command->add_option("--camera", options->camera, "Intrinsics of a depth image, as camera.json");
   command->add_option("--threads", options->threads, "Threads; the result does not depend on them")
       ->capture_default_str()
       ->check(CLI::Range(1, 256));
