@@ -57,8 +57,7 @@ Status compile_part_file(const CompileOptions& options) {
 Status compile_bop(const CompileOptions& options) {
   const Result<std::vector<BopModel>> models = read_bop_models(options.bop_root);
   if (!models.ok()) return models.status();
-  if (Status made = make_folder(options.output); !made.ok())
-    return {made.code(), std::string(made.message()) + "; choose another folder with -o"};
+  if (Status made = make_bank_folder(options.output); !made.ok()) return made;
   std::size_t done = 0;
   for (const BopModel& model : models.value()) {
     const Result<PartDescription> part = part_from_bop(model);

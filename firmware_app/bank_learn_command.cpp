@@ -195,12 +195,7 @@ Status learn_part(const LearnOptions& options) {
 Status learn_bop(const LearnOptions& options) {
   const Result<std::vector<BopModel>> models = read_bop_models(options.bop_root);
   if (!models.ok()) return models.status();
-  std::error_code error;
-  std::filesystem::create_directories(options.output, error);
-  if (error) {
-    return Status::format(StatusCode::cannot_write, "%s: cannot be made: %s; choose another folder with -o",
-                          options.output.c_str(), error.message().c_str());
-  }
+  if (Status made = make_bank_folder(options.output); !made.ok()) return made;
   for (const BopModel& model : models.value()) {
     Result<PartDescription> part = part_from_bop(model);
     if (!part.ok()) return part.status();

@@ -56,6 +56,12 @@ void add_bank_switches(CLI::App& command, BankSwitches& switches) {
   command.add_option("--picture", switches.picture, "Write every candidate view, and what became of it, into this PNG");
 }
 
+Status make_bank_folder(const std::string& folder) {
+  const Status made = make_folder(folder);
+  if (made.ok()) return made;
+  return {made.code(), std::string(made.message()) + "; choose another folder with -o"};
+}
+
 Result<PartDescription> part_from_bop(const BopModel& model) {
   Result<Mesh> mesh = read_mesh(model.mesh_file, LengthUnit::millimetres);
   if (!mesh.ok()) return mesh.status();

@@ -25,6 +25,9 @@ struct BankSwitches {
 };
 void add_bank_switches(CLI::App& command, BankSwitches& switches);
 
+/// Makes the folder for the banks of a data set unless it is there. Fails with cannot_write.
+[[nodiscard]] Status make_bank_folder(const std::string& folder);
+
 /// A BOP model as a part: symmetries from models_info.json, named obj_000001 and so on.
 [[nodiscard]] Result<PartDescription> part_from_bop(const BopModel& model);
 
