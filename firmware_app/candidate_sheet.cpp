@@ -1,12 +1,13 @@
 #include "firmware_app/candidate_sheet.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <numeric>
 #include <string>
 #include <tuple>
 #include <vector>
+
+#include "firmware_app/point_drawing.hpp"
 
 namespace graspd {
 namespace {
@@ -61,18 +62,9 @@ std::vector<std::size_t> sheet_order(const BankReport& report) {
 void draw_candidate(Picture& sheet, const BankPart& part, const CandidateReport& candidate, int left, int top) {
   const FateText fate = fate_text(candidate.fate);
   fill_rectangle(sheet, left + 1, top + 1, tile_size - 2, 3, fate.colour);
-  const Matrix3 rotation = sheet_from_part(candidate.direction);
-  const float scale = static_cast<float>(tile_size - 2 * margin) / part.diameter;
-  std::vector<std::size_t> order(candidate.points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto height = [&](std::size_t i) { return rotation.row(2).dot(candidate.points[i].position); };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return height(a) < height(b); });
-  for (const std::size_t i : order) {
-    const Vector3 place = rotation * (candidate.points[i].position - part.centre) * scale;
-    const int u = left + tile_size / 2 + static_cast<int>(std::lround(place.x()));
-    const int v = top + tile_size / 2 + static_cast<int>(std::lround(place.y()));
-    fill_rectangle(sheet, u - 1, v - 1, 4, 4, shaded(rotation * candidate.points[i].normal));
-  }
+  PointDrawing drawing{candidate.direction, part.centre, left + tile_size / 2, top + tile_size / 2};
+  drawing.scale = static_cast<float>(tile_size - 2 * margin) / part.diameter;
+  draw_points(sheet, candidate.points, drawing);
   const std::string verdict =
       in_a_view(candidate.fate) ? std::string(fate.word) + " " + std::to_string(candidate.view) : fate.word;
   draw_text(sheet, left + margin, top + tile_size, verdict, fate.colour);
@@ -86,22 +78,6 @@ void draw_candidate(Picture& sheet, const BankPart& part, const CandidateReport&
 }
 
 }  // namespace
-
-Matrix3 sheet_from_part(const Vector3& direction) {
-  const Vector3 towards = direction.normalized();
-  const Vector3 hint = std::abs(towards.z()) < 0.95F ? Vector3::UnitZ() : Vector3::UnitY();
-  const Vector3 right = hint.cross(towards).normalized();
-  Matrix3 rotation;
-  rotation.row(0) = right;
-  rotation.row(1) = -towards.cross(right);
-  rotation.row(2) = towards;
-  return rotation;
-}
-
-Colour shaded(const Vector3& normal_on_sheet) {
-  const float light = std::clamp(normal_on_sheet.dot(Vector3(-0.35F, -0.45F, 0.82F)), 0.0F, 1.0F);
-  return blend({40, 58, 84}, {214, 232, 250}, light);
-}
 
 Picture draw_candidate_sheet(const BankPart& part, const BankReport& report) {
   const int count = static_cast<int>(report.candidates.size());

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <string>
-#include <vector>
 
-#include "firmware_app/candidate_sheet.hpp"
+#include "firmware_app/point_drawing.hpp"
 
 namespace graspd {
 namespace {
@@ -17,26 +15,16 @@ constexpr int tile_height = 292;
 constexpr int margin = 12;
 constexpr Colour background{24, 26, 30};
 constexpr Colour ink{225, 228, 232};
-constexpr Colour reference_colour{255, 176, 60};
 
 void draw_view(Picture& sheet, const Bank& bank, std::size_t number, int left, int top) {
   const BankView& view = bank.views[number];
   const auto points = bank.view_points.subspan(view.first_point, view.point_count);
-  const Matrix3 rotation = sheet_from_part(view.direction);
-  const float scale = static_cast<float>(tile_width - 2 * margin) / bank.part->diameter;
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto height_of = [&](std::size_t i) { return rotation.row(2).dot(points[i].position); };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return height_of(a) < height_of(b); });
+  PointDrawing drawing{view.direction, bank.part->centre, left + tile_width / 2, top + tile_width / 2};
+  drawing.scale = static_cast<float>(tile_width - 2 * margin) / bank.part->diameter;
   // Neighbouring points stand one sampling step apart: dots of that size close the surface.
-  const int size = std::clamp(static_cast<int>(bank.part->sampling * scale * 1.1F), 2, 24);
-  for (const std::size_t i : order) {
-    const Vector3 place = rotation * (points[i].position - bank.part->centre) * scale;
-    const int u = left + tile_width / 2 + static_cast<int>(std::lround(place.x()));
-    const int v = top + tile_width / 2 + static_cast<int>(std::lround(place.y()));
-    fill_rectangle(sheet, u - size / 2, v - size / 2, size, size, shaded(rotation * points[i].normal));
-    if (i < view.reference_count) fill_rectangle(sheet, u - 1, v - 1, 2, 2, reference_colour);
-  }
+  drawing.dot = std::clamp(static_cast<int>(bank.part->sampling * drawing.scale * 1.1F), 2, 24);
+  drawing.marked = view.reference_count;
+  draw_points(sheet, points, drawing);
   char text[96];
   std::snprintf(text, sizeof text, "view %zu  (%.2f %.2f %.2f)", number, static_cast<double>(view.direction.x()),
                 static_cast<double>(view.direction.y()), static_cast<double>(view.direction.z()));
