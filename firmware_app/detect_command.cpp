@@ -9,6 +9,7 @@
 #include "drivers/files/atomic_file.hpp"
 #include "drivers/files/detection_picture.hpp"
 #include "drivers/system/clock.hpp"
+#include "firmware_app/camera_placement.hpp"
 #include "firmware_app/commands.hpp"
 #include "firmware_app/configuration.hpp"
 #include "firmware_app/detection_report.hpp"
@@ -43,7 +44,7 @@ Result<LoadedFrame> read_frame(const DetectOptions& options) {
 }
 
 /// Puts a camera that is on the flange where it was when the frame was taken.
-Status place_camera(const std::vector<float>& flange, Configuration& configuration) {
+Status take_flange_pose(const std::vector<float>& flange, Configuration& configuration) {
   if (!configuration.camera_on_flange) return {};
   if (flange.empty()) {
     return {StatusCode::usage,
@@ -55,10 +56,9 @@ Status place_camera(const std::vector<float>& flange, Configuration& configurati
   }
   const RigidTransform robot_from_flange{turn.normalized().toRotationMatrix(),
                                          0.001F * Vector3(flange[0], flange[1], flange[2])};
-  const RigidTransform robot_from_camera = robot_from_flange * configuration.flange_from_camera;
-  configuration.grasp.parameters.robot_from_camera = robot_from_camera;
-  configuration.detect.parameters.preprocess.box_from_camera =
-      inverse(configuration.detect.robot_from_box) * robot_from_camera;
+  DetectSettings& detect = configuration.detect;
+  place_camera(robot_from_flange * configuration.flange_from_camera, detect.robot_from_box, detect.parameters,
+               configuration.grasp.parameters);
   return {};
 }
 
@@ -67,7 +67,7 @@ Result<Configuration> read_settings(const DetectOptions& options) {
   if (options.configuration.empty()) return Configuration{};
   Result<Configuration> configuration = read_configuration(options.configuration);
   if (!configuration.ok()) return configuration;
-  if (Status placed = place_camera(options.flange, configuration.value()); !placed.ok()) return placed;
+  if (Status placed = take_flange_pose(options.flange, configuration.value()); !placed.ok()) return placed;
   return configuration;
 }
 

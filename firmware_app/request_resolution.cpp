@@ -1,6 +1,7 @@
 #include "firmware_app/request_resolution.hpp"
 
 #include "drivers/plc/register_map.hpp"
+#include "firmware_app/camera_placement.hpp"
 
 namespace graspd {
 namespace {
@@ -24,7 +25,7 @@ bool is_pose(const RigidTransform& pose) {
          pose.rotation.determinant() > 0.0F;
 }
 
-Status place_camera(const PlcRequest& request, const PickSettings& settings, ResolvedRequest& resolved) {
+Status take_flange_pose(const PlcRequest& request, const PickSettings& settings, ResolvedRequest& resolved) {
   if (request.has_flange_pose && !is_pose(request.robot_from_flange)) {
     return {StatusCode::bad_request, "flange_pose in the request is no pose: check its numbers and the word order"};
   }
@@ -33,9 +34,8 @@ Status place_camera(const PlcRequest& request, const PickSettings& settings, Res
     return {StatusCode::bad_request,
             "the camera is on the flange: set flange_pose_given in options and write flange_pose"};
   }
-  const RigidTransform robot_from_camera = request.robot_from_flange * settings.flange_from_camera;
-  resolved.grasp.robot_from_camera = robot_from_camera;
-  resolved.detect.preprocess.box_from_camera = inverse(settings.robot_from_box) * robot_from_camera;
+  place_camera(request.robot_from_flange * settings.flange_from_camera, settings.robot_from_box, resolved.detect,
+               resolved.grasp);
   return {};
 }
 
@@ -72,7 +72,7 @@ Status resolve_request(const PlcRequest& request, const PickSettings& settings, 
   resolved.detect = settings.detect;
   resolved.grasp = settings.grasp;
   if (Status served = check_served(request, settings); !served.ok()) return served;
-  if (Status placed = place_camera(request, settings, resolved); !placed.ok()) return placed;
+  if (Status placed = take_flange_pose(request, settings, resolved); !placed.ok()) return placed;
   if (Status known = select_banks(banks, request.part, resolved.banks); !known.ok()) return known;
   return select_region(request, settings, resolved);
 }
