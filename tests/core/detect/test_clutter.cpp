@@ -1,42 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <random>
 
 #include "core/detect/score.hpp"
 #include "tests/core/detect/bracket_scene.hpp"
+#include "tests/core/train/shapes.hpp"
 
 namespace graspd {
 namespace {
-
-/// A box about its middle, its edges `size` long.
-Mesh box_mesh(const Vector3& size) {
-  Mesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    mesh.vertices.emplace_back(((i & 1) != 0 ? 0.5F : -0.5F) * size.x(), ((i & 2) != 0 ? 0.5F : -0.5F) * size.y(),
-                               ((i & 4) != 0 ? 0.5F : -0.5F) * size.z());
-  }
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return mesh;
-}
-
-Mesh rod_mesh(float radius, float length) {
-  constexpr std::uint32_t sides = 32;
-  Mesh mesh;
-  for (const float x : {-0.5F * length, 0.5F * length}) {
-    for (std::uint32_t i = 0; i < sides; ++i) {
-      const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(sides);
-      mesh.vertices.emplace_back(x, radius * std::cos(angle), radius * std::sin(angle));
-    }
-  }
-  for (std::uint32_t i = 0; i < sides; ++i) {
-    const std::uint32_t j = (i + 1) % sides;
-    mesh.triangles.push_back({i, j, j + sides});
-    mesh.triangles.push_back({i, j + sides, i + sides});
-  }
-  return mesh;
-}
 
 /// Things on a floor that resemble a bracket here and there: boxes that lie flat, one that shows an edge between two
 /// sides like the legs' outer ones, a narrow bar, a rod.
@@ -50,11 +21,12 @@ struct ClutterScene {
           (Eigen::AngleAxisf(yaw, Vector3::UnitZ()) * Eigen::AngleAxisf(roll, Vector3::UnitX())).toRotationMatrix();
       draw_depth(mesh.view(), {turned, Vector3(x, y, floor - height)}, camera, depth);
     };
-    put(box_mesh({0.11F, 0.08F, 0.04F}), -0.13F, -0.07F, 0.02F, 0.3F, 0.0F);
-    put(box_mesh({0.09F, 0.05F, 0.05F}), 0.02F, -0.07F, 0.035F, 1.2F, 0.785F);
-    put(box_mesh({0.12F, 0.012F, 0.03F}), 0.13F, -0.06F, 0.015F, -0.6F, 0.0F);
-    put(box_mesh({0.08F, 0.045F, 0.03F}), -0.11F, 0.06F, 0.015F, 0.9F, 0.0F);
-    put(rod_mesh(0.02F, 0.12F), 0.02F, 0.06F, 0.02F, -0.3F, 0.0F);
+    put(shapes::box(0.11F, 0.08F, 0.04F), -0.13F, -0.07F, 0.02F, 0.3F, 0.0F);
+    put(shapes::box(0.09F, 0.05F, 0.05F), 0.02F, -0.07F, 0.035F, 1.2F, 0.785F);
+    put(shapes::box(0.12F, 0.012F, 0.03F), 0.13F, -0.06F, 0.015F, -0.6F, 0.0F);
+    put(shapes::box(0.08F, 0.045F, 0.03F), -0.11F, 0.06F, 0.015F, 0.9F, 0.0F);
+    const RigidTransform lying{Eigen::AngleAxisf(1.57079633F, Vector3::UnitY()).toRotationMatrix(), Vector3::Zero()};
+    put(shapes::moved(shapes::cylinder(0.02F, 0.12F), lying), 0.02F, 0.06F, 0.02F, -0.3F, 0.0F);
   }
   /// As a sensor would measure it, which no clutter fits perfectly.
   [[nodiscard]] DepthFrame frame() {
