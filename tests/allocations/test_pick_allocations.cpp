@@ -3,6 +3,7 @@
 #include "core/grasp/planner.hpp"
 #include "tests/allocations/allocation_guard.hpp"
 #include "tests/core/detect/bracket_scene.hpp"
+#include "tests/core/grasp/grasp_memory.hpp"
 
 namespace graspd::testing {
 namespace {
@@ -11,11 +12,7 @@ TEST(PickAllocations, FrameToPickAllocatesNothing) {
   const BracketBank bracket;
   BracketScene scene;
   DetectMemory memory(2);
-  Arena measuring = Arena::measuring();
-  (void)carve_grasp_workspace(measuring, {});
-  const auto bytes = std::make_unique<std::byte[]>(measuring.used());
-  Arena arena({bytes.get(), measuring.used()});
-  GraspWorkspace grasp_workspace = carve_grasp_workspace(arena, {});
+  GraspMemory grasp_memory;
   GraspParameters grasp_parameters;
   grasp_parameters.tools.tools[0].finger_length = 0.060F;
   // Every test that a grasp can be put to takes part.
@@ -32,7 +29,8 @@ TEST(PickAllocations, FrameToPickAllocatesNothing) {
     DetectParameters parameters;
     parameters.threads = threads;
     const Status status = detect(scene.frame(), request, parameters, memory.workspace, detections);
-    const PickResult result = choose_pick(scene.frame(), detections, request.banks, grasp_parameters, grasp_workspace);
+    const PickResult result =
+        choose_pick(scene.frame(), detections, request.banks, grasp_parameters, grasp_memory.workspace);
     return status.ok() && result.found;
   };
   // The first parallel region of a process starts its threads, as the daemon does before its first trigger.

@@ -7,6 +7,7 @@
 
 #include "core/grasp/planner.hpp"
 #include "tests/collisions/pile_scene.hpp"
+#include "tests/core/grasp/grasp_memory.hpp"
 
 namespace graspd {
 namespace {
@@ -43,11 +44,7 @@ void time_choices(const char* name, const HeldShape& part, PileScene& scene, int
 int main(int argument_count, char** arguments) {
   using namespace graspd;
   const int repetitions = argument_count > 1 ? std::max(1, std::atoi(arguments[1])) : 1000;
-  Arena measuring = Arena::measuring();
-  static_cast<void>(carve_grasp_workspace(measuring, {}));
-  std::vector<std::byte> bytes(measuring.used() + Arena::alignment);
-  Arena arena({bytes.data(), bytes.size()});
-  GraspWorkspace workspace = carve_grasp_workspace(arena, {});
+  GraspMemory memory;
 
   const PileBin bin{0.25F, 0.19F};
   const Camera camera{1280, 960, 1100.0F, 1100.0F, 639.5F, 479.5F};
@@ -59,7 +56,7 @@ int main(int argument_count, char** arguments) {
   for (const auto& [name, part] : parts) {
     PileScene scene = pile_scene(part, 90, bin, camera, SensorStrain::medium, 3);
     keep_instances(scene, 60);
-    time_choices(name, part, scene, repetitions, workspace);
+    time_choices(name, part, scene, repetitions, memory.workspace);
   }
   return 0;
 }

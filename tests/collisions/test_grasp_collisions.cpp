@@ -8,6 +8,7 @@
 #include "core/grasp/checks.hpp"
 #include "core/grasp/planner.hpp"
 #include "tests/collisions/pile_scene.hpp"
+#include "tests/core/grasp/grasp_memory.hpp"
 
 namespace graspd {
 namespace {
@@ -146,18 +147,14 @@ TEST(GraspCollisions, NoChosenGraspCollidesAndFewFramesYieldNone) {
   const std::vector<HeldShape> parts{held_block(), held_bar(), held_bracket()};
   const PileBin bin{0.110F, 0.090F};
   const Camera camera{640, 480, 900.0F, 900.0F, 319.5F, 239.5F};
-  Arena measuring = Arena::measuring();
-  static_cast<void>(carve_grasp_workspace(measuring, {}));
-  std::vector<std::byte> bytes(measuring.used() + Arena::alignment);
-  Arena arena({bytes.data(), bytes.size()});
-  GraspWorkspace workspace = carve_grasp_workspace(arena, {});
+  GraspMemory memory;
 
   Tally tally;
   for (const HeldShape& part : parts) {
     for (std::uint64_t seed = 1; seed <= piles; ++seed) {
       const auto strain = static_cast<SensorStrain>(seed % 3);
       PileScene scene = pile_scene(part, 6 + 2 * (seed % 6), bin, camera, strain, seed);
-      try_pile(part, scene, workspace, tally);
+      try_pile(part, scene, memory.workspace, tally);
     }
   }
   RecordProperty("frames", tally.frames);

@@ -11,6 +11,7 @@
 #include "core/geometry/depth_frame.hpp"
 #include "core/geometry/depth_render.hpp"
 #include "core/train/bank_builder.hpp"
+#include "tests/core/memory/carved.hpp"
 
 namespace graspd {
 
@@ -98,15 +99,7 @@ struct DetectMemory {
     capacity.maximum_width = 400;
     capacity.maximum_height = 300;
     capacity.threads = threads;
-    Arena measuring = Arena::measuring();
-    (void)carve_detect_workspace(measuring, capacity);
-    bytes = std::make_unique<std::byte[]>(measuring.used() + Arena::alignment);
-    void* first = bytes.get();
-    std::size_t space = measuring.used() + Arena::alignment;
-    std::align(Arena::alignment, measuring.used(), first, space);
-    Arena arena({static_cast<std::byte*>(first), measuring.used()});
-    workspace = carve_detect_workspace(arena, capacity);
-    if (arena.exhausted()) std::abort();
+    workspace = carved_into(bytes, [&](Arena& arena) { return carve_detect_workspace(arena, capacity); });
   }
   std::unique_ptr<std::byte[]> bytes;
   DetectWorkspace workspace;

@@ -2,13 +2,13 @@
 
 #include <array>
 #include <cstring>
-#include <memory>
 #include <random>
 
 #include "core/grasp/planner.hpp"
 #include "core/grasp/ranking.hpp"
 #include "core/grasp/walls.hpp"
 #include "tests/core/grasp/box_scene.hpp"
+#include "tests/core/grasp/grasp_memory.hpp"
 
 namespace graspd {
 namespace {
@@ -20,15 +20,6 @@ struct Planner : testing::Test {
     part.make_box(Vector3(0.015F, 0.030F, 0.015F));
     part.grasps.push_back({from_above, 0.036F, 1, 1});
     part.grasps.push_back({from_above * turn(Vector3::UnitZ(), 1.5707963F), 0.066F, 0, 2});
-    carve({});
-  }
-  void carve(const GraspCapacity& capacity) {
-    Arena measuring = Arena::measuring();
-    (void)carve_grasp_workspace(measuring, capacity);
-    bytes = std::make_unique<std::byte[]>(measuring.used() + Arena::alignment);
-    Arena arena({bytes.get(), measuring.used()});
-    workspace = carve_grasp_workspace(arena, capacity);
-    ASSERT_FALSE(arena.exhausted());
   }
   /// A block whose z axis points to the camera.
   void add_block(float x, float y, float z, float yaw = 0.0F, float score = 0.9F) {
@@ -45,7 +36,7 @@ struct Planner : testing::Test {
     const Bank bank = part.bank();
     Detections detections;
     detections.instances = instances;
-    return choose_pick(frame, detections, {&bank, 1}, parameters, workspace, avoided);
+    return choose_pick(frame, detections, {&bank, 1}, parameters, grasp_memory.workspace, avoided);
   }
   GraspBank part;
   BoxScene scene;
@@ -53,8 +44,7 @@ struct Planner : testing::Test {
   GraspParameters parameters;
   std::vector<AvoidedPlace> avoided;
   DepthFrame frame;
-  std::unique_ptr<std::byte[]> bytes;
-  GraspWorkspace workspace;
+  GraspMemory grasp_memory;
 };
 
 TEST_F(Planner, PicksAFreeBlockByItsPreferredGrasp) {
@@ -316,14 +306,14 @@ TEST_F(Planner, ChecksAreSharedAndBounded) {
     add_block(x, 0.0F, 0.585F, 0.0F, 0.9F);
     add_obstacle(x + 0.030F, 0.0F, 0.585F);
   }
-  carve({512, 100, 3});
+  grasp_memory = GraspMemory({512, 100, 3});
   const PickResult few = choose();
   EXPECT_EQ(few.checks, 3U);
   EXPECT_NE(few.flags & flag_grasps_cut, 0U);
   EXPECT_EQ(few.pickable, 0U) << "the first grasp of each is blocked, and there is no check left for the second";
   ASSERT_EQ(few.rejected.size(), 3U);
   EXPECT_EQ(few.rejected[2].instance, 2U);
-  carve({512, 100, 6});
+  grasp_memory = GraspMemory({512, 100, 6});
   const PickResult enough = choose();
   EXPECT_EQ(enough.pickable, 3U);
   EXPECT_EQ(enough.flags & flag_grasps_cut, 0U);
@@ -363,7 +353,7 @@ TEST_F(Planner, NothingDetectedIsNothingToPick) {
 TEST_F(Planner, OverrunIsCutAndFlagged) {
   add_block(-0.08F, 0.0F, 0.585F, 0.0F, 0.95F);
   add_block(0.08F, 0.0F, 0.585F, 0.0F, 0.90F);
-  carve({1, 1});
+  grasp_memory = GraspMemory({1, 1});
   const PickResult result = choose();
   EXPECT_EQ(result.flags, flag_grasps_cut | flag_picks_cut);
   ASSERT_EQ(result.pickable, 1U);
@@ -381,7 +371,7 @@ TEST_F(Planner, SameInputGivesTheSameBytes) {
   const PickResult first = choose();
   ASSERT_TRUE(first.found);
   const std::vector<Pick> picks(first.picks.begin(), first.picks.end());
-  carve({});
+  grasp_memory = GraspMemory();
   const PickResult again = choose();
   ASSERT_EQ(again.picks.size(), picks.size());
   EXPECT_EQ(std::memcmp(again.picks.data(), picks.data(), picks.size() * sizeof(Pick)), 0);
