@@ -61,10 +61,20 @@ Vector3 any_direction(Chance& chance) {
   return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
 
+/// The shortest turn that points `direction`, of unit length, upwards.
+Matrix3 upright(const Vector3& direction) {
+  constexpr float straight_down = -0.99999F;
+  const float cosine = direction.z();
+  if (cosine < straight_down) return turn(Vector3::UnitX(), std::numbers::pi_v<float>);
+  // The quaternion of half the angle; Eigen's own way to it decomposes a matrix, which takes long to compile.
+  const float twice = std::sqrt(2.0F * (1.0F + cosine));
+  const Vector3 axis = direction.cross(Vector3::UnitZ()) / twice;
+  return Eigen::Quaternionf(0.5F * twice, axis.x(), axis.y(), axis.z()).toRotationMatrix();
+}
+
 Matrix3 any_rotation(Chance& chance) {
   const Vector3 up = any_direction(chance);
-  return turn(Vector3::UnitZ(), chance.between(0.0F, 2.0F * std::numbers::pi_v<float>)) *
-         Eigen::Quaternionf::FromTwoVectors(up, Vector3::UnitZ()).toRotationMatrix();
+  return turn(Vector3::UnitZ(), chance.between(0.0F, 2.0F * std::numbers::pi_v<float>)) * upright(up);
 }
 
 /// Lays the part, turned by `rotation` with its centre over (x, y), on the pile.
