@@ -1,12 +1,12 @@
 #include "core/train/cut_out.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/geometry/depth_render.hpp"
+#include "core/geometry/symmetric_matrix.hpp"
 #include "core/train/surface_index.hpp"
 
 namespace graspd {
@@ -137,7 +137,7 @@ float align_to_surface(std::span<const OrientedPoint> surface, float reach, CutO
     best = aligned;
     // What the view does not fix stays where the pose put it.
     hessian += Matrix6::Identity() * (1e-3F * hessian.trace() / 6.0F);
-    const Vector6 step = hessian.ldlt().solve(-gradient);
+    const Vector6 step = solved(hessian.cast<double>(), -gradient.cast<double>()).cast<float>();
     const Vector3 turn = step.head<3>() / length;
     RigidTransform move;
     if (turn.norm() > 0.0F) move.rotation = Eigen::AngleAxisf(turn.norm(), turn.normalized()).toRotationMatrix();

@@ -1,9 +1,10 @@
 #include "core/train/view_refinement.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <bit>
 #include <numeric>
+
+#include "core/geometry/symmetric_matrix.hpp"
 
 namespace graspd {
 
@@ -190,11 +191,9 @@ float pose_conditioning(std::span<const OrientedPoint> samples, std::span<const 
     twist.normalize();
     const Matrix6 others = Matrix6::Identity() - twist * twist.transpose();
     hessian = others * hessian * others + hessian.trace() * twist * twist.transpose();
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(hessian, Eigen::EigenvaluesOnly);
-    return static_cast<float>(solver.eigenvalues()(0) / solver.eigenvalues()(4));
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(hessian, Eigen::EigenvaluesOnly);
-  return static_cast<float>(solver.eigenvalues()(0) / solver.eigenvalues()(5));
+  const Eigen::VectorXd values = decomposed(hessian).values;
+  return static_cast<float>(values(0) / values(symmetry.continuous ? 4 : 5));
 }
 
 std::vector<RefinedView> refine_views(const CandidateViews& candidates, const SymmetryGroup& symmetry,
