@@ -24,7 +24,6 @@ namespace graspd {
 
 namespace {
 
-constexpr int visibility_directions = 642;
 constexpr float render_error = 0.001F;      ///< Of the bank's mesh, as a share of the diameter.
 constexpr float occlusion_error = 0.0005F;  ///< Of the mesh that hides points while the bank is made.
 constexpr float samples_per_voxel = 24.0F;
@@ -67,6 +66,9 @@ const char* parameter_fault(const BankBuildParameters& p) {
   if (!within(p.sensor_distance, 0.01F, 100.0F)) return "sensor_distance must lie between 0.01 and 100 metres";
   if (p.model_points < 0 || p.model_points > 20000) return "model_points must lie between 0 and 20000";
   if (p.surface_points < 100 || p.surface_points > 20000) return "surface_points must lie between 100 and 20000";
+  if (p.visibility_directions < 6 || p.visibility_directions > 5000) {
+    return "visibility_directions must lie between 6 and 5000";
+  }
   return nullptr;
 }
 
@@ -109,7 +111,7 @@ void add_surface(const PartMesh& mesh, const MeshView& occluder, const ViewingCo
     points.push_back(reachable[i]);
     storage.surface.push_back({reachable[i].position, reachable[i].normal});
   }
-  storage.directions = view_sphere(visibility_directions);
+  storage.directions = view_sphere(parameters.visibility_directions);
   storage.visibility = find_visibility(occluder, points, storage.directions, conditions).seen;
 
   const float near_surface = 0.02F * mesh.diameter;

@@ -48,7 +48,8 @@ struct BankBuildParameters {
       1.31F;                      ///< The sensor sees surfaces up to this angle from the normal (radians, 75 degrees).
   float sensor_distance = 0.75F;  ///< Metres from the sensor to the part.
   int surface_points = 2048;
-  bool refinement = true;  ///< False: evenly spread candidates as they are (ablation).
+  int visibility_directions = 642;  ///< From which the bank knows what of the surface the part itself hides.
+  bool refinement = true;           ///< False: evenly spread candidates as they are (ablation).
   Generalisation generalisation = Generalisation::fuse;
   bool full_model = false;  ///< One view of all sides and all pairs, in place of many views (ablation).
   int model_points = 0;     ///< Not 0: in place of `sampling`, one by which the whole surface makes so many points.

@@ -38,7 +38,7 @@ inline Mesh bracket_mesh() {
 /// A bank of the bracket, made from its mesh, to be held by the upright leg.
 class BracketBank {
  public:
-  BracketBank() {
+  explicit BracketBank(const BankBuildParameters& parameters = {}) {
     PartDescription part;
     part.name = "bracket";
     part.part_id = 1;
@@ -49,7 +49,7 @@ class BracketBank {
     tool.translation = Vector3(0.003F, 0.020F, 0.025F);
     part.grasps.push_back({tool, 0.014F, 0, 1});
     BankReport report;
-    Result<std::vector<std::byte>> built = build_bank(part, {}, report, [](float) {});
+    Result<std::vector<std::byte>> built = build_bank(part, parameters, report, [](float) {});
     if (!built.ok()) std::abort();
     file_ = std::move(built.value());
     Result<Bank> read = read_bank(file_, "bracket");
@@ -86,6 +86,18 @@ struct BracketScene {
     lay(0.12F, 0.08F, 2.6F, on_its_leg);
     const Mesh mesh = bracket_mesh();
     for (const RigidTransform& pose : poses) draw_depth(mesh.view(), pose, camera, depth);
+  }
+  /// Leaves the three brackets to the right, in a quarter of the frame.
+  void crop() {
+    constexpr int left = 180;
+    constexpr int top = 95;
+    const Camera whole = camera;
+    camera = {200, 150, whole.fx, whole.fy, whole.cx - left, whole.cy - top};
+    for (int v = 0; v < camera.height; ++v) {
+      for (int u = 0; u < camera.width; ++u) depth[camera.index(u, v)] = depth[whole.index(u + left, v + top)];
+    }
+    depth.resize(camera.pixel_count());
+    poses = {poses[2], poses[4], poses[5]};
   }
   [[nodiscard]] DepthFrame frame() { return {camera, depth, 0, 0}; }
 

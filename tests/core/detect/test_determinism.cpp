@@ -40,7 +40,16 @@ std::string bytes_of(const Detections& detections) {
 }
 
 struct Determinism : testing::Test {
-  static void SetUpTestSuite() { bracket = std::make_unique<BracketBank>(); }
+  Determinism() { scene.crop(); }
+  /// Coarser than banks are made, as sanitizers take their time.
+  static void SetUpTestSuite() {
+    BankBuildParameters parameters;
+    parameters.sampling = 0.06F;
+    parameters.candidate_views = 60;
+    parameters.surface_points = 600;
+    parameters.visibility_directions = 162;
+    bracket = std::make_unique<BracketBank>(parameters);
+  }
   static void TearDownTestSuite() { bracket.reset(); }
   std::string detect_with(int threads, DetectMemory& memory) {
     DetectRequest request;
@@ -75,14 +84,14 @@ TEST_F(Determinism, SceneHoldsWhatItIsMeantToTest) {
 TEST_F(Determinism, SameBytesRunAfterRun) {
   DetectMemory memory(1);
   const std::string first = detect_with(1, memory);
-  for (int run = 0; run < 2; ++run) EXPECT_EQ(detect_with(1, memory), first);
+  EXPECT_EQ(detect_with(1, memory), first);
 }
 
 TEST_F(Determinism, SameBytesForAnyNumberOfThreads) {
   DetectMemory one(1);
   const std::string expected = detect_with(1, one);
   DetectMemory several(3);
-  for (const int threads : {2, 3, 1, 2}) EXPECT_EQ(detect_with(threads, several), expected) << threads << " threads";
+  for (const int threads : {2, 3, 1}) EXPECT_EQ(detect_with(threads, several), expected) << threads << " threads";
 }
 
 TEST_F(Determinism, MemoryOfAnotherFrameLeavesNoTrace) {

@@ -24,12 +24,14 @@ struct BoxScene {
 
   DepthFrame render() {
     depth.assign(camera.pixel_count(), floor);
+    std::vector<RigidTransform> from_camera;
+    for (const SceneBox& box : boxes) from_camera.push_back(inverse(box.camera_from_box));
     for (int v = 0; v < camera.height; ++v) {
       for (int u = 0; u < camera.width; ++u) {
         const Vector3 ray = camera.point(static_cast<float>(u), static_cast<float>(v), 1.0F);
         float& nearest = depth[camera.index(u, v)];
-        for (const SceneBox& box : boxes) {
-          const float hit = hit_depth(box, ray);
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+          const float hit = hit_depth(boxes[i].half_size, from_camera[i], ray);
           if (hit > 0.0F && (nearest == 0.0F || hit < nearest)) nearest = hit;
         }
       }
@@ -39,15 +41,14 @@ struct BoxScene {
 
  private:
   /// Depth at which the ray enters the box; 0 when it misses.
-  static float hit_depth(const SceneBox& box, const Vector3& ray) {
-    const RigidTransform box_from_camera = inverse(box.camera_from_box);
-    const Vector3 start = box_from_camera.translation;
+  static float hit_depth(const Vector3& half_size, const RigidTransform& box_from_camera, const Vector3& ray) {
+    const Vector3& start = box_from_camera.translation;
     const Vector3 direction = box_from_camera.rotation * ray;
     float enter = 0.0F;
     float leave = std::numeric_limits<float>::max();
     for (int axis = 0; axis < 3; ++axis) {
-      float near = (-box.half_size[axis] - start[axis]) / direction[axis];
-      float far = (box.half_size[axis] - start[axis]) / direction[axis];
+      float near = (-half_size[axis] - start[axis]) / direction[axis];
+      float far = (half_size[axis] - start[axis]) / direction[axis];
       if (near > far) std::swap(near, far);
       enter = std::max(enter, near);
       leave = std::min(leave, far);

@@ -15,7 +15,9 @@ namespace {
 BankBuildParameters quick() {
   BankBuildParameters parameters;
   parameters.sampling = 0.08F;
-  parameters.surface_points = 500;
+  parameters.candidate_views = 60;
+  parameters.surface_points = 150;
+  parameters.visibility_directions = 100;
   return parameters;
 }
 
@@ -50,14 +52,14 @@ TEST(BankBuilder, ABracketMakesABankThatReadsBack) {
   EXPECT_NEAR(bank.part->sampling, 0.08F * bank.part->diameter, 1e-6F);
   EXPECT_NEAR(bank.part->thresholds.minimum_score, 0.6F, 1e-6F);
   EXPECT_EQ(bank.grasps.size(), 2U);
-  EXPECT_EQ(bank.surface.size(), 500U);
+  EXPECT_EQ(bank.surface.size(), 150U);
   EXPECT_EQ(static_cast<int>(bank.views.size()), report.views_kept);
   EXPECT_GE(bank.views.size(), 4U);
   EXPECT_EQ(bank.symmetry_discrete.size(), 1U);
   EXPECT_GT(bank.entries.size(), 1000U);
   EXPECT_GT(bank.edges.size(), 100U);
   EXPECT_FALSE(report.symmetry_proposed);
-  EXPECT_EQ(report.views_rendered, 162);
+  EXPECT_EQ(report.views_rendered, 60);
 }
 
 TEST(BankBuilder, TheSamePartGivesTheSameBytes) {
