@@ -24,6 +24,7 @@ void read_weights(SettingsTable table, RankingWeights& weights) {
   table.read("clearance", weights.clearance, 0, 1000);
   table.read("height", weights.height, 0, 1000);
   table.read("turn", weights.turn, 0, 1000);
+  table.read("unseen", weights.unseen, 0, 1000);
   table.read("height_range", weights.height_range, 1, 10000, metres_per_millimetre);
   table.finish();
 }

@@ -62,7 +62,7 @@ GraspCandidate candidate_at(const RigidTransform& robot_from_part, const PartGra
   candidate.tilt = std::acos(std::clamp(cos_tilt, -1.0F, 1.0F));
   candidate.turn = rotation_angle(preferred.rotation.transpose() * candidate.robot_from_tool.rotation);
   const float most = parameters.collision.clearance_range;
-  candidate.value = grasp_value({grasp.priority, target.score, candidate.tilt, most, target.drop, candidate.turn},
+  candidate.value = grasp_value({grasp.priority, target.score, candidate.tilt, most, target.drop, candidate.turn, 0.0F},
                                 parameters.weights, most);
   return candidate;
 }

@@ -98,7 +98,7 @@ GraspCheck check_grasp(const GraspSurroundings& around, std::size_t instance, co
                         {inverse(camera_from_part) * camera_from_tool,
                          grown({bank.part->box_min, bank.part->box_max}, tool.contact_margin)}};
   const Openings openings = openings_of(tool, grasp);
-  GraspCheck check{GraspRejection::opening, 0.0F, 0.0F};
+  GraspCheck check{GraspRejection::opening, 0.0F, 0.0F, 0.0F};
   for (std::size_t i = 0; i < openings.count; ++i) {
     const GraspRejection rejection = test_opening(attempt, openings.widths[i]);
     if (furthest(check.reason, rejection) == rejection) {
@@ -107,7 +107,9 @@ GraspCheck check_grasp(const GraspSurroundings& around, std::size_t instance, co
     }
     if (rejection != GraspRejection::none) continue;
     const Gripper gripper = open_gripper(tool, check.opening);
-    check.clearance = sweep_clearance(*around.cloud, way_in(attempt, gripper), attempt.part, parameters.collision);
+    const Sweep sweep = way_in(attempt, gripper);
+    check.clearance = sweep_clearance(*around.cloud, sweep, attempt.part, parameters.collision);
+    check.unseen = unseen_share(*around.cloud, sweep);
     break;
   }
   return check;

@@ -26,6 +26,7 @@ struct GraspCheck {
   GraspRejection reason = GraspRejection::none;
   float opening = 0;    ///< Metres: the widest with which it passed; when none passed, the one that came furthest.
   float clearance = 0;  ///< Metres; meaningful only when it passed.
+  float unseen = 0;     ///< Share of a jaw (or cup) that moves where the sensor could not see; as the clearance.
 };
 
 /// Puts a grasp of instance number `instance` to the tests from `wall` on (see GraspRejection), with every opening

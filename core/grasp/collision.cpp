@@ -58,16 +58,16 @@ void visit_tiles(const CloudMap& map, const CellRange& range, const Wanted& want
   }
 }
 
-/// Calls `visit` with the depth and the ray (tool frame, a metre deep) of every cell of `range` that was measured
-/// between its nearest and its furthest depth, in tiles that `wanted` asks for, until it returns true.
+/// Calls `visit` with the depth, out of `depths`, and the ray (tool frame, a metre deep) of every cell of `range` whose
+/// depth lies between its nearest and its furthest one, in tiles that `wanted` asks for, until it returns true.
 template <class Wanted, class Visit>
-void visit_cells(const CloudMap& map, const CellRange& range, const RigidTransform& tool_from_camera,
-                 const Wanted& wanted, const Visit& visit) {
+void visit_cells(const CloudMap& map, std::span<const float> depths, const CellRange& range,
+                 const RigidTransform& tool_from_camera, const Wanted& wanted, const Visit& visit) {
   const Vector3 ray_step = tool_from_camera.rotation.col(0) / map.camera.fx;
   visit_tiles(map, range, wanted, [&](const CellRange& cells) {
     for (int v = cells.first_v; v <= cells.last_v; ++v) {
       const Vector3 row_ray = tool_from_camera.rotation * map.camera.point(0.0F, static_cast<float>(v), 1.0F);
-      const float* const row = map.depth.data() + map.camera.index(0, v);
+      const float* const row = depths.data() + map.camera.index(0, v);
       for (int u = cells.first_u; u <= cells.last_u; ++u) {
         const float depth = row[u];
         if (!(depth > 0.0F && depth >= cells.nearest && depth <= cells.furthest)) continue;
@@ -85,7 +85,7 @@ void visit_points(const CloudMap& map, const RigidTransform& camera_from_tool, c
   const CellRange range = cells_of(map.camera, camera_from_tool, box);
   const Matrix3 size_in_tool = tool_from_camera.rotation.cwiseAbs();
   const auto wanted = [&](const Box& tile) { return tile_reaches(tile, tool_from_camera, size_in_tool, box); };
-  visit_cells(map, range, tool_from_camera, wanted, [&](float depth, const Vector3& ray) {
+  visit_cells(map, map.depth, range, tool_from_camera, wanted, [&](float depth, const Vector3& ray) {
     return visit(Vector3(depth * ray + tool_from_camera.translation));
   });
 }
@@ -94,7 +94,7 @@ bool is_part(const Vector3& point, const GripperPiece& piece, const Gripper& gri
   return piece.touches_part && gripper.held.contains(point) && part.bounds.contains(part.part_from_tool * point);
 }
 
-/// The volume behind measured surfaces that a box covers, cubic metres.
+/// The volume behind what was measured, or may stand where nothing was, that a box covers, cubic metres.
 float hidden_volume(const CloudMap& map, const RigidTransform& camera_from_tool, const RigidTransform& tool_from_camera,
                     const Box& box) {
   CellRange range = cells_of(map.camera, camera_from_tool, box);
@@ -104,8 +104,8 @@ float hidden_volume(const CloudMap& map, const RigidTransform& camera_from_tool,
   const Vector3 to_lower = box.lower - tool_from_camera.translation;
   const Vector3 to_upper = box.upper - tool_from_camera.translation;
   float volume = 0.0F;
-  const auto wanted = [&](const Box& tile) { return tile.lower.z() < range.furthest; };
-  visit_cells(map, range, tool_from_camera, wanted, [&](float depth, const Vector3& ray) {
+  const auto every_tile = [](const Box&) { return true; };
+  visit_cells(map, map.front, range, tool_from_camera, every_tile, [&](float depth, const Vector3& ray) {
     const Vector3 inverse_ray = ray.cwiseInverse();
     const Vector3 a = to_lower.cwiseProduct(inverse_ray);
     const Vector3 b = to_upper.cwiseProduct(inverse_ray);

@@ -25,8 +25,9 @@ Pick pick_of(const GraspCandidate& candidate, const GraspCheck& check, const Par
   pick.score = target.score;
   pick.tilt = candidate.tilt;
   pick.clearance = check.clearance;
-  pick.value = grasp_value({grasp.priority, target.score, candidate.tilt, check.clearance, target.drop, candidate.turn},
-                           parameters.weights, parameters.collision.clearance_range);
+  pick.value = grasp_value(
+      {grasp.priority, target.score, candidate.tilt, check.clearance, target.drop, candidate.turn, check.unseen},
+      parameters.weights, parameters.collision.clearance_range);
   pick.grasp = grasp.number;
   pick.tool = parameters.tools.tools[candidate.tool].number;
   return pick;

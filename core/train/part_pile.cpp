@@ -96,7 +96,9 @@ RigidTransform settled(const PileShape& shape, const HeightMap& map, const PileB
   RigidTransform pose = dropped(shape, map, rotation, x, y);
   for (int i = 0; i < settling_steps; ++i) {
     const float left = 1.0F - static_cast<float>(i) / settling_steps;
-    const Matrix3 tried_rotation = turn(any_direction(chance), 0.6F * left * left * chance.unit()) * rotation;
+    // One draw a statement: compilers differ in which argument of a call comes first.
+    const float angle = 0.6F * left * left * chance.unit();
+    const Matrix3 tried_rotation = turn(any_direction(chance), angle) * rotation;
     const float tried_x = x + 0.2F * left * shape.diameter * chance.normal();
     const float tried_y = y + 0.2F * left * shape.diameter * chance.normal();
     const RigidTransform tried = dropped(shape, map, tried_rotation, tried_x, tried_y);

@@ -169,7 +169,8 @@ TEST(GraspCollisions, NoChosenGraspCollidesAndFewFramesYieldNone) {
   EXPECT_GT(tally.graspable, tally.frames / 2);
   EXPECT_EQ(tally.first_collisions, 0);
   EXPECT_EQ(tally.collisions, 0);
-  EXPECT_GE(tally.answered, 0.95 * tally.graspable);
+  // Some free grasps pass through what the sensor did not see, where other parts may lie: those are not chosen.
+  EXPECT_GE(tally.answered, 0.85 * tally.graspable);
 }
 
 }  // namespace

@@ -140,6 +140,7 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(grasp.parameters.weights.clearance);
   GRASPD_COMPARE(grasp.parameters.weights.height);
   GRASPD_COMPARE(grasp.parameters.weights.turn);
+  GRASPD_COMPARE(grasp.parameters.weights.unseen);
   GRASPD_COMPARE(grasp.parameters.weights.height_range);
   GRASPD_COMPARE(grasp.capacity.checks);
   GRASPD_COMPARE(grasp.capacity.cloud_cells);

@@ -13,6 +13,7 @@ namespace graspd {
 struct SceneBox {
   RigidTransform camera_from_box;
   Vector3 half_size = Vector3::Zero();
+  bool shiny = false;  ///< The sensor gets nothing back from it.
 };
 
 /// A depth frame of boxes on a floor across the optical axis, by casting a ray through each pixel.
@@ -30,10 +31,14 @@ struct BoxScene {
       for (int u = 0; u < camera.width; ++u) {
         const Vector3 ray = camera.point(static_cast<float>(u), static_cast<float>(v), 1.0F);
         float& nearest = depth[camera.index(u, v)];
+        bool lost = false;
         for (std::size_t i = 0; i < boxes.size(); ++i) {
           const float hit = hit_depth(boxes[i].half_size, from_camera[i], ray);
-          if (hit > 0.0F && (nearest == 0.0F || hit < nearest)) nearest = hit;
+          if (!(hit > 0.0F && (nearest == 0.0F || hit < nearest))) continue;
+          nearest = hit;
+          lost = boxes[i].shiny;
         }
+        if (lost) nearest = 0.0F;
       }
     }
     return {camera, depth, 0, 0};

@@ -118,7 +118,7 @@ TEST_F(Planner, OrdersByValueWithOnePickForEachInstance) {
   EXPECT_EQ(result.picks[2].instance, 2U);
   for (const Pick& pick : result.picks) {
     const float drop = pick.instance == 1 ? 0.0F : 0.040F;
-    const float value = grasp_value({1, pick.score, pick.tilt, pick.clearance, drop, 0.0F}, parameters.weights,
+    const float value = grasp_value({1, pick.score, pick.tilt, pick.clearance, drop, 0.0F, 0.0F}, parameters.weights,
                                     parameters.collision.clearance_range);
     EXPECT_NEAR(pick.value, value, 1e-3F);
   }
@@ -248,6 +248,27 @@ TEST_F(Planner, StaysOutOfWhatNobodyHasSeen) {
   EXPECT_EQ(reason_of(choose()), GraspRejection::unseen);
   parameters.collision.maximum_unseen = 1.0F;
   EXPECT_EQ(reason_of(choose()), GraspRejection::none);
+}
+
+TEST_F(Planner, StaysOutOfWhatWasNotMeasuredBesideThePart) {
+  part.grasps.resize(1);
+  add_block(0.0F, 0.0F, 0.585F);
+  ASSERT_EQ(reason_of(choose()), GraspRejection::none);
+  scene.boxes.push_back({shift(0.0265F, 0.0F, 0.585F), Vector3(0.011F, 0.020F, 0.015F), true});
+  EXPECT_EQ(reason_of(choose()), GraspRejection::unseen) << "nobody knows what is there";
+  scene.boxes.back().camera_from_box.translation.x() = 0.060F;
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none);
+}
+
+TEST_F(Planner, PrefersAGraspThatIsSeenWhole) {
+  add_block(0.0F, 0.0F, 0.585F);
+  part.grasps[0].priority = part.grasps[1].priority;
+  part.grasps[0].number = 1;
+  parameters.collision.maximum_unseen = 1.0F;
+  parameters.weights.clearance = 0.0F;
+  ASSERT_EQ(choose().best.grasp, 1U);
+  scene.boxes.push_back({shift(0.0265F, 0.0F, 0.585F), Vector3(0.011F, 0.020F, 0.015F), true});
+  EXPECT_EQ(choose().best.grasp, 2U);
 }
 
 TEST_F(Planner, JawsCatchNothingElseWhenTheyClose) {
