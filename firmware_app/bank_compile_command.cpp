@@ -25,20 +25,40 @@ struct CompileOptions {
   BankSwitches switches;
 };
 
-/// Builds one bank and writes it. `mesh_file` stands in complaints, `label` on the progress bar.
-Status compile_one(const PartDescription& part, const BankBuildParameters& build, const std::string& mesh_file,
-                   const std::string& output, const std::string& label, const std::string& picture) {
-  BankReport report;
+/// A bank that is to be made.
+struct CompileOrder {
+  PartDescription part;
+  BankBuildParameters build;
+  bool sampling_given = false;
+  std::string mesh_file;  ///< Stands in complaints.
+  std::string output;
+  std::string label;  ///< On the progress bar.
+  std::string picture;
+};
+
+Result<std::vector<std::byte>> compiled(CompileOrder& order, const AdaptationSwitches& adaptation, BankReport& report) {
   ProgressBar bar;
-  const Result<std::vector<std::byte>> bytes =
-      build_bank(part, build, report, [&](float share) { bar.show(label, share); });
-  bar.clear();
+  if (!order.sampling_given && order.build.model_points == 0) {
+    const Status adapted = adapt_to_part(order.part, adaptation, order.label, bar, order.build);
+    if (!adapted.ok()) return adapted;
+  }
+  Result<std::vector<std::byte>> bytes =
+      build_bank(order.part, order.build, report, [&](float share) { bar.show(order.label, share); });
+  if (!bytes.ok()) return bytes;
+  return with_expectation(std::move(bytes).value(), order.build, adaptation, order.label, bar);
+}
+
+/// Builds one bank and writes it.
+Status compile_one(CompileOrder order, const BankSwitches& switches) {
+  switches.apply(order.build);
+  BankReport report;
+  const Result<std::vector<std::byte>> bytes = compiled(order, switches.adaptation, report);
   if (!bytes.ok()) {
     const std::string_view message = bytes.status().message();
-    return Status::format(bytes.status().code(), "%s: %.*s", mesh_file.c_str(), static_cast<int>(message.size()),
+    return Status::format(bytes.status().code(), "%s: %.*s", order.mesh_file.c_str(), static_cast<int>(message.size()),
                           message.data());
   }
-  return write_bank_file(output, bytes.value(), report, picture);
+  return write_bank_file(order.output, bytes.value(), report, order.picture);
 }
 
 Status compile_part_file(const CompileOptions& options) {
@@ -49,9 +69,10 @@ Status compile_part_file(const CompileOptions& options) {
   Result<Mesh> mesh = read_mesh(part_file.mesh_path, part_file.mesh_unit);
   if (!mesh.ok()) return mesh.status();
   part_file.part.mesh = std::move(mesh).value();
-  options.switches.apply(part_file.build);
-  return compile_one(part_file.part, part_file.build, part_file.mesh_path, options.output, part_file.part.name,
-                     options.switches.picture);
+  const std::string name = part_file.part.name;
+  return compile_one({std::move(part_file.part), part_file.build, part_file.sampling_given, part_file.mesh_path,
+                      options.output, name, options.switches.picture},
+                     options.switches);
 }
 
 Status compile_bop(const CompileOptions& options) {
@@ -60,17 +81,15 @@ Status compile_bop(const CompileOptions& options) {
   if (Status made = make_bank_folder(options.output); !made.ok()) return made;
   std::size_t done = 0;
   for (const BopModel& model : models.value()) {
-    const Result<PartDescription> part = part_from_bop(model);
+    Result<PartDescription> part = part_from_bop(model);
     if (!part.ok()) return part.status();
-    const std::string& name = part.value().name;
+    const std::string name = part.value().name;
     const std::string output = (std::filesystem::path(options.output) / (name + ".bank")).string();
     if (Status writable = check_writable(output); !writable.ok()) return writable;
     ++done;
     const std::string label = name + " (" + std::to_string(done) + " of " + std::to_string(models.value().size()) + ")";
-    BankBuildParameters build;
-    options.switches.apply(build);
-    if (Status compiled = compile_one(part.value(), build, model.mesh_file.string(), output, label, {}); !compiled.ok())
-      return compiled;
+    CompileOrder order{std::move(part).value(), {}, false, model.mesh_file.string(), output, label, {}};
+    if (Status made = compile_one(std::move(order), options.switches); !made.ok()) return made;
   }
   return {};
 }
@@ -89,6 +108,9 @@ void add_bank_compile_command(CLI::App& bank_command, Status& outcome) {
   command->footer(
       "Only CAD is read, no frames. Symmetries come from the part file (with --bop from\n"
       "models_info.json); when a part file has no [symmetry], they are looked for and reported.\n"
+      "Unless the part file says how to sample the part, the compiler adapts that: it tries several\n"
+      "samplings in simulated bins of the part and takes the one that finds most for its cost. What\n"
+      "the bank then finds in other bins is stored in it; graspd bank show prints it.\n"
       "\n"
       "Examples:\n"
       "  graspd bank compile bushing.toml -o bushing.bank\n"

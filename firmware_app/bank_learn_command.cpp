@@ -32,7 +32,6 @@ struct LearnOptions {
   bool bootstrap = false;
   bool frames_only = false;
   float minimum_score = 0.8F;
-  int threads = 1;
   BankSwitches switches;
 };
 
@@ -40,6 +39,7 @@ struct LearnOptions {
 struct Pupil {
   PartDescription part;
   BankBuildParameters build;
+  bool sampling_given = false;
   std::vector<CutOut> views;    ///< Of the bank that is extended.
   std::vector<std::byte> bank;  ///< To detect with; empty until a frame needs it.
 };
@@ -67,6 +67,7 @@ Result<Pupil> pupil_from_bank(const std::string& path) {
   pupil.part.grasps.assign(bank.grasps.begin(), bank.grasps.end());
   pupil.part.thresholds = bank.part->thresholds;
   pupil.build.sampling = bank.part->sampling / bank.part->diameter;
+  pupil.sampling_given = true;
   pupil.build.angle_bins = static_cast<int>(bank.grid.angle_bins);
   for (std::size_t v = 0; v < bank.views.size(); ++v) {
     const BankView& view = bank.views[v];
@@ -91,6 +92,7 @@ Result<Pupil> pupil_from_part_file(const std::string& path) {
   pupil.part = std::move(file.value().part);
   pupil.part.mesh = std::move(mesh).value();
   pupil.build = file.value().build;
+  pupil.sampling_given = file.value().sampling_given;
   return pupil;
 }
 
@@ -136,9 +138,10 @@ class ViewCutter {
     const Result<Bank> bank = read_bank(pupil_.bank, pupil_.part.name);
     if (!bank.ok()) return bank.status();
     const DepthFrame frame = file.frame();
-    session_.fit({frame.camera.width, frame.camera.height}, std::span(&bank.value(), 1), options_.threads);
+    session_.fit({frame.camera.width, frame.camera.height}, std::span(&bank.value(), 1),
+                 options_.switches.adaptation.thread_count());
     DetectParameters parameters;
-    parameters.threads = options_.threads;
+    parameters.threads = options_.switches.adaptation.thread_count();
     DetectRequest request;
     request.banks = std::span(&bank.value(), 1);
     request.minimum_score = options_.minimum_score;
@@ -164,8 +167,13 @@ Status learn_one(const LearnOptions& options, Pupil& pupil, const std::string& o
   const Result<PartMesh> mesh = prepare_mesh(pupil.part.mesh);
   if (!mesh.ok()) return mesh.status();
 
-  ViewCutter cutter(options, pupil, mesh.value());
+  const AdaptationSwitches& adaptation = options.switches.adaptation;
   ProgressBar bar;
+  if (!pupil.sampling_given && pupil.build.model_points == 0) {
+    const Status adapted = adapt_to_part(pupil.part, adaptation, pupil.part.name, bar, pupil.build);
+    if (!adapted.ok()) return adapted;
+  }
+  ViewCutter cutter(options, pupil, mesh.value());
   const Status read = for_each_learning_frame(options.frames, files.value(), options.images, pupil.part.part_id,
                                               least_visible, [&](LearningFrame& frame, float share) {
                                                 bar.show(pupil.part.name + ": " + frame.file.name, 0.6F * share);
@@ -175,9 +183,10 @@ Status learn_one(const LearnOptions& options, Pupil& pupil, const std::string& o
   std::vector<CutOut> views = std::move(cutter.views);
   views.insert(views.end(), pupil.views.begin(), pupil.views.end());
   BankReport report;
-  const Result<std::vector<std::byte>> bytes =
+  Result<std::vector<std::byte>> bytes =
       learn_bank(pupil.part, std::move(views), !options.frames_only, pupil.build, report,
                  [&](float share) { bar.show(pupil.part.name, 0.6F + 0.4F * share); });
+  if (bytes.ok()) bytes = with_expectation(std::move(bytes).value(), pupil.build, adaptation, pupil.part.name, bar);
   bar.clear();
   if (!bytes.ok()) return bytes.status();
   std::printf("%s: %zu frames, %zu instances with known poses, %zu found by detection\n", pupil.part.name.c_str(),
@@ -232,9 +241,6 @@ void add_bank_learn_command(CLI::App& bank_command, Status& outcome) {
   command->add_flag("--frames-only", options->frames_only, "Keep no rendered views for the sides that no frame shows");
   add_bank_switches(*command, options->switches);
   add_frame_file_switches(*command, options->files);
-  command->add_option("--threads", options->threads, "Threads of the detection")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 256));
   command->footer(
       "Cuts the points that coincide with the posed part out of each frame. Poses come from the scene's\n"
       "scene_gt.json (obj_id is the part's number); frames without one are searched with a bank made from\n"

@@ -11,7 +11,7 @@
 namespace graspd {
 namespace {
 
-void print_report(const std::string& path, std::size_t bytes, const BankReport& report) {
+void print_report(const std::string& path, std::size_t bytes, const BankPart& part, const BankReport& report) {
   std::printf(
       "%s: %.1f MiB; %d views rendered, %d cut out of frames, %d kept, %d fused into them, %d merged, "
       "dropped: %d incomplete, "
@@ -25,6 +25,7 @@ void print_report(const std::string& path, std::size_t bytes, const BankReport& 
                 report.resting.size(), static_cast<double>(first.share) * 100.0, static_cast<double>(first.down.x()),
                 static_cast<double>(first.down.y()), static_cast<double>(first.down.z()));
   }
+  if (part.expected.instances > 0) std::printf("  expected: %s\n", expectation_text(part.expected).c_str());
   for (const std::string& remark : report.remarks) std::printf("  %s\n", remark.c_str());
   std::fflush(stdout);
 }
@@ -54,6 +55,7 @@ void add_bank_switches(CLI::App& command, BankSwitches& switches) {
                   "Sample so that the whole surface makes about so many points (else by the share of the diameter)")
       ->check(CLI::Range(50, 20000));
   command.add_option("--picture", switches.picture, "Write every candidate view, and what became of it, into this PNG");
+  add_adaptation_switches(command, switches.adaptation);
 }
 
 Status make_bank_folder(const std::string& folder) {
@@ -86,7 +88,7 @@ Status write_bank_file(const std::string& path, std::span<const std::byte> bytes
                           static_cast<int>(bank.status().message().size()), bank.status().message().data());
   }
   if (Status written = write_file(path, bytes); !written.ok()) return written;
-  print_report(path, bytes.size(), report);
+  print_report(path, bytes.size(), *bank.value().part, report);
   if (picture.empty()) return {};
   return write_picture(picture, draw_candidate_sheet(*bank.value().part, report));
 }

@@ -5,6 +5,7 @@
 
 #include "core/train/bank_builder.hpp"
 #include "drivers/files/bop_dataset.hpp"
+#include "firmware_app/bank_adaptation.hpp"
 
 namespace CLI {
 class App;
@@ -19,6 +20,7 @@ struct BankSwitches {
   bool full_model = false;
   int model_points = 0;
   std::string picture;
+  AdaptationSwitches adaptation;
 
   /// Lays what was asked for over the part file's own parameters.
   void apply(BankBuildParameters& build) const;

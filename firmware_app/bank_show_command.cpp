@@ -4,6 +4,7 @@
 #include <string>
 
 #include "drivers/files/picture.hpp"
+#include "firmware_app/bank_adaptation.hpp"
 #include "firmware_app/commands.hpp"
 #include "firmware_app/contact_sheet.hpp"
 #include "firmware_app/loaded_banks.hpp"
@@ -34,6 +35,7 @@ void print_part(const Bank& bank) {
               static_cast<double>(limits.minimum_score), static_cast<double>(limits.minimum_overlap),
               static_cast<double>(limits.maximum_boundary), static_cast<double>(limits.minimum_edge),
               static_cast<double>(limits.maximum_below));
+  std::printf("expected    %s\n", expectation_text(part.expected).c_str());
 }
 
 template <class T>

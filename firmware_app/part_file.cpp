@@ -177,8 +177,10 @@ void read_thresholds(SettingsTable table, VerifyThresholds& thresholds) {
   table.finish();
 }
 
-void read_build(SettingsTable table, BankBuildParameters& build) {
+void read_build(SettingsTable table, PartFile& file) {
   constexpr double radians_per_degree = std::numbers::pi / 180;
+  BankBuildParameters& build = file.build;
+  file.sampling_given = table.has("sampling");
   table.read("sampling", build.sampling, 0.01, 0.2);
   table.read("angle_bins", build.angle_bins, 6, 36);
   table.read("candidate_views", build.candidate_views, 12, 2562);
@@ -217,7 +219,7 @@ Result<PartFile> read_part_file(const std::string& path) {
   read_symmetry(root.table("symmetry"), part);
   read_grasps(root, part);
   read_thresholds(root.table("thresholds"), part.thresholds);
-  read_build(root.table("build"), result.build);
+  read_build(root.table("build"), result);
   root.finish();
   if (!file.problem.ok()) return file.problem;
   return result;

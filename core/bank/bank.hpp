@@ -24,6 +24,14 @@ struct VerifyThresholds {
   float minimum_score = 0.4F;      ///< Default acceptance threshold on the final score.
 };
 
+/// What the bank found of its part in simulated bins, where the truth is known.
+struct BankExpectation {
+  float recall_above_half = 0;  ///< Share found of the instances of which more than half could be seen,
+  float recall_below_half = 0;  ///< and of those from 0.3 to 0.5.
+  float precision = 0;          ///< Share of all reported instances that were right.
+  std::uint32_t instances = 0;  ///< On which the recalls were measured; 0: nothing was measured.
+};
+
 /// What a bank says of its part. Lengths in metres, part frame.
 struct BankPart {
   std::array<char, 64> name{};       ///< Zero-terminated.
@@ -36,6 +44,9 @@ struct BankPart {
   std::uint32_t symmetry_continuous = 0;
   SymmetryAxis symmetry_axis;
   VerifyThresholds thresholds;
+  std::uint32_t edges_refine = 1;  ///< 1: the outline draws the pose in refinement, 0: surfaces alone do.
+  std::uint32_t edges_judge = 1;   ///< 1: the outline is evidence in verification, 0: it says nothing.
+  BankExpectation expected;
 
   [[nodiscard]] std::string_view name_view() const { return {name.data()}; }
 };

@@ -33,7 +33,12 @@ const char* part_fault(const BankPart& part) {
   const VerifyThresholds& t = part.thresholds;
   for (const float threshold :
        {t.minimum_edge, t.minimum_overlap, t.maximum_boundary, t.maximum_below, t.minimum_score}) {
-    if (!(threshold >= 0.0F && threshold <= 1.0F)) return "a threshold lies outside 0 to 1";
+    if (!is_within(threshold, 0.0F, 1.0F)) return "a threshold lies outside 0 to 1";
+  }
+  if (part.edges_refine > 1 || part.edges_judge > 1) return "it does not say whether its edges are used";
+  const BankExpectation& e = part.expected;
+  for (const float share : {e.recall_above_half, e.recall_below_half, e.precision}) {
+    if (!is_within(share, 0.0F, 1.0F)) return "an expected recall or precision lies outside 0 to 1";
   }
   return nullptr;
 }

@@ -124,7 +124,8 @@ void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& b
   const float voxel = bank.part->sampling;
   const IcpSchedule schedule{parameters.coarse_iterations, parameters.coarse_points, parameters.first_gate * voxel,
                              parameters.coarse_gate * voxel, 0.0F};
-  const std::span<const EdgePoint> contour = parameters.edges ? bank.edges : std::span<const EdgePoint>{};
+  const std::span<const EdgePoint> contour =
+      parameters.edges && bank.part->edges_refine != 0 ? bank.edges : std::span<const EdgePoint>{};
   parallel_for(clusters.size(), threads, 4, [&](std::size_t k) {
     PoseCluster& cluster = clusters[k];
     cluster.camera_from_part = refine_pose(map, edges, bank, contour, cluster.camera_from_part, schedule);
@@ -158,6 +159,7 @@ RigidTransform refine_finely(const SceneMap& map, const DepthEdges& edges, const
                              std::span<float> image) {
   const float voxel = bank.part->sampling;
   std::array<EdgePoint, most_contour_points> contour;
+  const bool edges_draw = parameters.edges && bank.part->edges_refine != 0;
   RigidTransform pose = camera_from_part;
   const IcpSchedule schedule{parameters.fine_iterations / std::max(parameters.fine_rounds, 1), parameters.fine_points,
                              parameters.coarse_gate * voxel, parameters.last_gate * voxel,
@@ -165,7 +167,7 @@ RigidTransform refine_finely(const SceneMap& map, const DepthEdges& edges, const
   for (int round = 0; round < parameters.fine_rounds; ++round) {
     const RenderedModel model = render_model(map, bank, pose, image, {});
     const std::size_t count = find_contour(map, model, pose, contour);
-    pose = refine_pose(map, edges, bank, std::span(contour).first(parameters.edges ? count : 0), pose, schedule);
+    pose = refine_pose(map, edges, bank, std::span(contour).first(edges_draw ? count : 0), pose, schedule);
   }
   return pose;
 }

@@ -255,7 +255,7 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   evidence.blur = blur_of(map, bank.part->sampling);
   evidence.outline = static_cast<float>(outline.length) / voxel_cells;
   evidence.lock = normal_count > 0.0F ? lock_of(normals / normal_count) : 0.0F;
-  const int decided = parameters.edges ? outline.consistent + outline.inconsistent : 0;
+  const int decided = parameters.edges && bank.part->edges_judge != 0 ? outline.consistent + outline.inconsistent : 0;
   evidence.edge = decided > 0 ? static_cast<float>(outline.consistent) / static_cast<float>(decided) : 1.0F;
   return evidence;
 }

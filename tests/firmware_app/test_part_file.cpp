@@ -37,6 +37,13 @@ TEST_F(PartFileText, SmallestOneLeavesSymmetriesToTheBuilder) {
   EXPECT_FALSE(result.value().part.symmetry_given);
 }
 
+TEST_F(PartFileText, ASamplingOfTheFileIsToldFromTheDefault) {
+  EXPECT_FALSE(read("[build]\nmaximum_views = 8\n").value().sampling_given);
+  const PartFile given = read("[build]\nsampling = 0.04\n").value();
+  EXPECT_TRUE(given.sampling_given);
+  EXPECT_FLOAT_EQ(given.build.sampling, 0.04F);
+}
+
 TEST_F(PartFileText, EmptySymmetrySectionMeansNone) {
   const Result<PartFile> result = read("[symmetry]\n");
   ASSERT_TRUE(result.ok()) << result.status().message();

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/status.hpp"
+#include "core/train/bank_builder.hpp"
+#include "core/train/trial_bins.hpp"
+
+namespace graspd {
+
+/// How a bank is adapted to its part.
+struct AdaptationParameters {
+  /// Settings that are tried, as points that the whole surface makes at them; fewest, so cheapest, first.
+  std::vector<int> model_points{500, 700, 1000, 1400};
+  std::size_t first_bins = 5;  ///< Simulated bins in which every setting is tried,
+  std::size_t last_bins = 15;  ///< those in which the best ones are, the first among them,
+  std::size_t finalists = 2;   ///< how many these are,
+  std::size_t rating_bins =
+      10;  ///< and further ones, unknown to the choice, for what the bank can be expected to find.
+  TrialRecipe bins;
+};
+
+/// A setting that was tried.
+struct AdaptationTrial {
+  float sampling = 0;    ///< As a share of the diameter.
+  TrialOutcome outcome;  ///< In all bins in which it was tried.
+  float merit = 0;       ///< See adaptation_merit; less a little for its cost.
+};
+
+/// What was tried, in the order of AdaptationParameters::model_points; settings that come to the same are left out.
+struct AdaptationReport {
+  std::vector<AdaptationTrial> trials;
+  std::size_t chosen = 0;
+};
+
+/// One figure for what was found: the share of the instances, less that of wrong reports. Instances of which less
+/// than 0.3 can be seen count half.
+[[nodiscard]] float adaptation_merit(const TrialOutcome& outcome);
+
+/// Chooses `parameters.sampling` for the part: makes a bank for each setting and tries it on simulated bins of the
+/// part, the better ones on more. Points cost time on the line, so that a doubling of them must pay. The same part
+/// gives the same choice. `progress` is called with a share in [0, 1]. Fails as build_bank().
+[[nodiscard]] Status adapt_sampling(const PartDescription& part, const AdaptationParameters& adaptation,
+                                    const std::function<void(float)>& progress, BankBuildParameters& parameters,
+                                    AdaptationReport& report);
+
+/// The bank `file` with what it can be expected to find (BankPart::expected), measured in simulated bins. Fails with
+/// bad_bank when the file is not a bank.
+[[nodiscard]] Result<std::vector<std::byte>> rate_bank(std::span<const std::byte> file,
+                                                       const AdaptationParameters& adaptation,
+                                                       const std::function<void(float)>& progress);
+
+}  // namespace graspd
