@@ -68,6 +68,8 @@ Result<Pupil> pupil_from_bank(const std::string& path) {
   pupil.part.thresholds = bank.part->thresholds;
   pupil.build.sampling = bank.part->sampling / bank.part->diameter;
   pupil.sampling_given = true;
+  pupil.build.edges_refine = bank.part->edges_refine != 0;
+  pupil.build.edges_judge = bank.part->edges_judge != 0;
   pupil.build.angle_bins = static_cast<int>(bank.grid.angle_bins);
   for (std::size_t v = 0; v < bank.views.size(); ++v) {
     const BankView& view = bank.views[v];

@@ -35,6 +35,8 @@ void print_part(const Bank& bank) {
               static_cast<double>(limits.minimum_score), static_cast<double>(limits.minimum_overlap),
               static_cast<double>(limits.maximum_boundary), static_cast<double>(limits.minimum_edge),
               static_cast<double>(limits.maximum_below));
+  std::printf("edges       %s, %s\n", part.edges_refine != 0 ? "refine poses" : "do not refine poses",
+              part.edges_judge != 0 ? "judge them" : "do not judge them");
   std::printf("expected    %s\n", expectation_text(part.expected).c_str());
 }
 

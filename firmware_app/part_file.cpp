@@ -191,6 +191,8 @@ void read_build(SettingsTable table, PartFile& file) {
   table.read("maximum_incidence", build.maximum_incidence, 20, 89, radians_per_degree);
   table.read("sensor_distance", build.sensor_distance, 50, 20000, metres_per_millimetre);
   table.read("surface_points", build.surface_points, 200, 20000);
+  table.read("edges_refine", build.edges_refine);
+  table.read("edges_judge", build.edges_judge);
   table.finish();
 }
 

@@ -91,6 +91,8 @@ void describe_part(const PartDescription& part, const PartMesh& mesh, const Bank
   out.centre = 0.5F * (mesh.box_min + mesh.box_max);
   out.sampling = sampling_of(parameters, mesh) * mesh.diameter;
   out.thresholds = part.thresholds;
+  out.edges_refine = parameters.edges_refine ? 1 : 0;
+  out.edges_judge = parameters.edges_judge ? 1 : 0;
   out.symmetry_continuous = storage.symmetry.continuous ? 1 : 0;
   out.symmetry_axis = storage.symmetry.axis;
 }

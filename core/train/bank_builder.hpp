@@ -51,8 +51,10 @@ struct BankBuildParameters {
   int visibility_directions = 642;  ///< From which the bank knows what of the surface the part itself hides.
   bool refinement = true;           ///< False: evenly spread candidates as they are (ablation).
   Generalisation generalisation = Generalisation::fuse;
-  bool full_model = false;  ///< One view of all sides and all pairs, in place of many views (ablation).
-  int model_points = 0;     ///< Not 0: in place of `sampling`, one by which the whole surface makes so many points.
+  bool full_model = false;   ///< One view of all sides and all pairs, in place of many views (ablation).
+  bool edges_refine = true;  ///< The bank lets outlines draw poses in refinement
+  bool edges_judge = true;   ///< and be evidence in verification.
+  int model_points = 0;      ///< Not 0: in place of `sampling`, one by which the whole surface makes so many points.
 };
 
 /// What became of a candidate view.

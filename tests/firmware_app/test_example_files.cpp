@@ -240,6 +240,8 @@ TEST(ExamplePartFile, ShowsTheDefaults) {
   EXPECT_NEAR(build.maximum_incidence, real_build.maximum_incidence, 0.002F) << message;
   EXPECT_FLOAT_EQ(build.sensor_distance, real_build.sensor_distance) << message;
   EXPECT_EQ(build.surface_points, real_build.surface_points) << message;
+  EXPECT_EQ(build.edges_refine, real_build.edges_refine) << message;
+  EXPECT_EQ(build.edges_judge, real_build.edges_judge) << message;
 }
 
 }  // namespace

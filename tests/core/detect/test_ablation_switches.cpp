@@ -15,9 +15,11 @@ struct AblatedDetection {
   DetectMemory memory{1};
   Detections detections;
 
-  void run(const DetectParameters& parameters) {
+  void run(const DetectParameters& parameters) { run(parameters, bracket.bank()); }
+
+  void run(const DetectParameters& parameters, const Bank& bank) {
     DetectRequest request;
-    request.banks = {&bracket.bank(), 1};
+    request.banks = {&bank, 1};
     const Status status = detect(scene.frame(), request, parameters, memory.workspace, detections);
     ASSERT_TRUE(status.ok()) << status.message();
   }
@@ -45,6 +47,30 @@ TEST(AblationSwitches, WithoutEdgesTheOutlineSaysNothing) {
     return i.camera_from_part.translation == with.translation && i.camera_from_part.rotation == with.rotation;
   };
   EXPECT_TRUE(std::none_of(ablated.detections.instances.begin(), ablated.detections.instances.end(), same));
+}
+
+TEST(AblationSwitches, ABankWithoutEdgesIsFoundAsWithTheSwitch) {
+  AblatedDetection switched;
+  DetectParameters parameters;
+  parameters.refine.edges = false;
+  parameters.verify.edges = false;
+  ASSERT_NO_FATAL_FAILURE(switched.run(parameters));
+  AblatedDetection told;
+  BankPart part = *told.bracket.bank().part;
+  Bank bank = told.bracket.bank();
+  bank.part = &part;
+  part.edges_judge = 0;
+  ASSERT_NO_FATAL_FAILURE(told.run({}, bank));
+  EXPECT_EQ(told.contradicted(), 0);
+  part.edges_refine = 0;
+  ASSERT_NO_FATAL_FAILURE(told.run({}, bank));
+  ASSERT_EQ(told.detections.instances.size(), switched.detections.instances.size());
+  for (std::size_t i = 0; i < told.detections.instances.size(); ++i) {
+    const RigidTransform& a = told.detections.instances[i].camera_from_part;
+    const RigidTransform& b = switched.detections.instances[i].camera_from_part;
+    EXPECT_EQ(a.translation, b.translation);
+    EXPECT_EQ(a.rotation, b.rotation);
+  }
 }
 
 TEST(AblationSwitches, WithoutTestsOnlyTheScoreRejects) {

@@ -62,6 +62,16 @@ TEST(BankBuilder, ABracketMakesABankThatReadsBack) {
   EXPECT_EQ(report.views_rendered, 60);
 }
 
+TEST(BankBuilder, TheBankSaysWhatEdgesAreUsedFor) {
+  BankBuildParameters parameters = quick();
+  parameters.edges_judge = false;
+  BankReport report;
+  const auto file = build_bank(described(shapes::bracket()), parameters, report, [](float) {}).value();
+  const Bank bank = read_bank(file, "bracket").value();
+  EXPECT_EQ(bank.part->edges_refine, 1U);
+  EXPECT_EQ(bank.part->edges_judge, 0U);
+}
+
 TEST(BankBuilder, TheSamePartGivesTheSameBytes) {
   const PartDescription part = described(shapes::bracket());
   BankReport report;
