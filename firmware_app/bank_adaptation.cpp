@@ -9,16 +9,24 @@
 namespace graspd {
 namespace {
 
-void print_trials(const std::string& label, const AdaptationReport& report) {
+void print_trial(const char* what, const AdaptationTrial& trial, bool chosen) {
+  std::printf("  %-22s", what);
+  for (const Share& found : trial.outcome.found) std::printf(" %4zu/%-4zu", found.hits, found.total);
+  std::printf("   %zu/%zu%s\n", trial.outcome.precision.hits, trial.outcome.precision.total, chosen ? "   chosen" : "");
+}
+
+void print_trials(const std::string& label, const AdaptationReport& report, const BankBuildParameters& build) {
   std::printf("%s: tried in simulated bins\n  %-22s %9s %9s %9s   %s\n", label.c_str(), "sampling (of diameter)",
               "seen <0.3", "0.3-0.5", ">0.5", "right of reported");
   for (std::size_t i = 0; i < report.trials.size(); ++i) {
-    const AdaptationTrial& trial = report.trials[i];
-    std::printf("  %-22.4f", static_cast<double>(trial.sampling));
-    for (const Share& found : trial.outcome.found) std::printf(" %4zu/%-4zu", found.hits, found.total);
-    std::printf("   %zu/%zu%s\n", trial.outcome.precision.hits, trial.outcome.precision.total,
-                i == report.chosen ? "   chosen" : "");
+    char sampling[32];
+    std::snprintf(sampling, sizeof sampling, "%.4f", static_cast<double>(report.trials[i].sampling));
+    print_trial(sampling, report.trials[i], i == report.chosen);
   }
+  if (!report.edges_tried) return;
+  std::printf("  and with other things in some of the bins\n");
+  print_trial("edges judge", report.with_edges, build.edges_judge);
+  print_trial("edges do not judge", report.without_edges, !build.edges_judge);
 }
 
 }  // namespace
@@ -32,6 +40,7 @@ AdaptationParameters AdaptationSwitches::parameters(const BankBuildParameters& b
   const auto times = static_cast<std::size_t>(effort);
   adaptation.first_bins *= times;
   adaptation.last_bins *= times;
+  adaptation.stranger_bins *= times;
   adaptation.rating_bins *= times;
   adaptation.bins.sensor_distance = build.sensor_distance;
   adaptation.bins.threads = thread_count();
@@ -53,16 +62,17 @@ void add_adaptation_switches(CLI::App& command, AdaptationSwitches& switches) {
       ->check(CLI::Range(1, 256));
 }
 
-Status adapt_to_part(const PartDescription& part, const AdaptationSwitches& switches, const std::string& label,
-                     ProgressBar& bar, BankBuildParameters& build) {
+Status adapt_to_part(const PartDescription& part, const AdaptationSwitches& switches, bool edges_given,
+                     const std::string& label, ProgressBar& bar, BankBuildParameters& build) {
   if (switches.without) return {};
+  AdaptationParameters adaptation = switches.parameters(build);
+  adaptation.edges = !edges_given;
   AdaptationReport report;
-  const Status adapted = adapt_sampling(
-      part, switches.parameters(build), [&](float share) { bar.show(label + ": trying samplings", share); }, build,
-      report);
+  const Status adapted = adapt_to_bins(
+      part, adaptation, [&](float share) { bar.show(label + ": trying samplings", share); }, build, report);
   bar.clear();
   if (!adapted.ok()) return adapted;
-  print_trials(label, report);
+  print_trials(label, report, build);
   return {};
 }
 

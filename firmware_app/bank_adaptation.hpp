@@ -25,8 +25,9 @@ struct AdaptationSwitches {
 };
 void add_adaptation_switches(CLI::App& command, AdaptationSwitches& switches);
 
-/// Chooses the sampling in `build` for the part and prints what was tried. Does nothing when adaptation is off.
-[[nodiscard]] Status adapt_to_part(const PartDescription& part, const AdaptationSwitches& switches,
+/// Chooses in `build` how the part is sampled and whether edges judge, and prints what was tried. Does nothing when
+/// adaptation is off.
+[[nodiscard]] Status adapt_to_part(const PartDescription& part, const AdaptationSwitches& switches, bool edges_given,
                                    const std::string& label, ProgressBar& bar, BankBuildParameters& build);
 
 /// The bank with what can be expected of it; as it is when adaptation is off.

@@ -30,6 +30,7 @@ struct CompileOrder {
   PartDescription part;
   BankBuildParameters build;
   bool sampling_given = false;
+  bool edges_given = false;
   std::string mesh_file;  ///< Stands in complaints.
   std::string output;
   std::string label;  ///< On the progress bar.
@@ -39,7 +40,7 @@ struct CompileOrder {
 Result<std::vector<std::byte>> compiled(CompileOrder& order, const AdaptationSwitches& adaptation, BankReport& report) {
   ProgressBar bar;
   if (!order.sampling_given && order.build.model_points == 0) {
-    const Status adapted = adapt_to_part(order.part, adaptation, order.label, bar, order.build);
+    const Status adapted = adapt_to_part(order.part, adaptation, order.edges_given, order.label, bar, order.build);
     if (!adapted.ok()) return adapted;
   }
   Result<std::vector<std::byte>> bytes =
@@ -70,8 +71,8 @@ Status compile_part_file(const CompileOptions& options) {
   if (!mesh.ok()) return mesh.status();
   part_file.part.mesh = std::move(mesh).value();
   const std::string name = part_file.part.name;
-  return compile_one({std::move(part_file.part), part_file.build, part_file.sampling_given, part_file.mesh_path,
-                      options.output, name, options.switches.picture},
+  return compile_one({std::move(part_file.part), part_file.build, part_file.sampling_given, part_file.edges_given,
+                      part_file.mesh_path, options.output, name, options.switches.picture},
                      options.switches);
 }
 
@@ -88,7 +89,7 @@ Status compile_bop(const CompileOptions& options) {
     if (Status writable = check_writable(output); !writable.ok()) return writable;
     ++done;
     const std::string label = name + " (" + std::to_string(done) + " of " + std::to_string(models.value().size()) + ")";
-    CompileOrder order{std::move(part).value(), {}, false, model.mesh_file.string(), output, label, {}};
+    CompileOrder order{std::move(part).value(), {}, false, false, model.mesh_file.string(), output, label, {}};
     if (Status made = compile_one(std::move(order), options.switches); !made.ok()) return made;
   }
   return {};
@@ -109,8 +110,9 @@ void add_bank_compile_command(CLI::App& bank_command, Status& outcome) {
       "Only CAD is read, no frames. Symmetries come from the part file (with --bop from\n"
       "models_info.json); when a part file has no [symmetry], they are looked for and reported.\n"
       "Unless the part file says how to sample the part, the compiler adapts that: it tries several\n"
-      "samplings in simulated bins of the part and takes the one that finds most for its cost. What\n"
-      "the bank then finds in other bins is stored in it; graspd bank show prints it.\n"
+      "samplings in simulated bins of the part and takes the one that finds most for its cost, then\n"
+      "whether poses are better not judged by their outlines. What the bank finds in other bins is\n"
+      "stored in it; graspd bank show prints it.\n"
       "\n"
       "Examples:\n"
       "  graspd bank compile bushing.toml -o bushing.bank\n"

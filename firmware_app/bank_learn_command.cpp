@@ -40,6 +40,7 @@ struct Pupil {
   PartDescription part;
   BankBuildParameters build;
   bool sampling_given = false;
+  bool edges_given = false;
   std::vector<CutOut> views;    ///< Of the bank that is extended.
   std::vector<std::byte> bank;  ///< To detect with; empty until a frame needs it.
 };
@@ -95,6 +96,7 @@ Result<Pupil> pupil_from_part_file(const std::string& path) {
   pupil.part.mesh = std::move(mesh).value();
   pupil.build = file.value().build;
   pupil.sampling_given = file.value().sampling_given;
+  pupil.edges_given = file.value().edges_given;
   return pupil;
 }
 
@@ -172,7 +174,7 @@ Status learn_one(const LearnOptions& options, Pupil& pupil, const std::string& o
   const AdaptationSwitches& adaptation = options.switches.adaptation;
   ProgressBar bar;
   if (!pupil.sampling_given && pupil.build.model_points == 0) {
-    const Status adapted = adapt_to_part(pupil.part, adaptation, pupil.part.name, bar, pupil.build);
+    const Status adapted = adapt_to_part(pupil.part, adaptation, pupil.edges_given, pupil.part.name, bar, pupil.build);
     if (!adapted.ok()) return adapted;
   }
   ViewCutter cutter(options, pupil, mesh.value());

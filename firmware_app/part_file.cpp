@@ -181,6 +181,7 @@ void read_build(SettingsTable table, PartFile& file) {
   constexpr double radians_per_degree = std::numbers::pi / 180;
   BankBuildParameters& build = file.build;
   file.sampling_given = table.has("sampling");
+  file.edges_given = table.has("edges_judge");
   table.read("sampling", build.sampling, 0.01, 0.2);
   table.read("angle_bins", build.angle_bins, 6, 36);
   table.read("candidate_views", build.candidate_views, 12, 2562);

@@ -14,6 +14,7 @@ struct PartFile {
   std::string mesh_path;  ///< Resolved against the part file's folder.
   LengthUnit mesh_unit = LengthUnit::millimetres;
   BankBuildParameters build;
+  bool edges_given = false;     ///< The file itself says whether edges judge poses.
   bool sampling_given = false;  ///< The file itself says how the bank samples.
 };
 

@@ -13,9 +13,10 @@ namespace graspd {
 namespace {
 
 constexpr double weight_of_hidden = 0.5;
-constexpr double price_of_doubling = 0.01;  ///< Of merit, for twice as many points.
-constexpr float building_share = 0.15F;     ///< Of the progress.
-constexpr float alike = 0.02F;              ///< Settings that differ by this share or less are one.
+constexpr double price_of_doubling = 0.01;    ///< Of merit, for twice as many points.
+constexpr float price_without_edges = 0.03F;  ///< Of merit: bins hold things that nobody has simulated.
+constexpr float building_share = 0.15F;       ///< Of the progress.
+constexpr float alike = 0.02F;                ///< Settings that differ by this share or less are one.
 
 /// A setting while it is tried.
 struct Candidate {
@@ -74,6 +75,34 @@ std::vector<std::size_t> ranked(std::span<const Candidate> candidates) {
 
 float share_of(const Share& share) { return static_cast<float>(share.value()); }
 
+/// The bank with edges that do not judge.
+Result<std::vector<std::byte>> without_edges(std::span<const std::byte> file) {
+  Result<Bank> bank = read_bank(file, "candidate");
+  if (!bank.ok()) return bank.status();
+  BankPart part = *bank.value().part;
+  part.edges_judge = 0;
+  bank.value().part = &part;
+  return write_bank(bank.value());
+}
+
+/// Whether the chosen candidate is better off when edges do not judge.
+Status try_edges(const TrialPart& part, std::span<SimulatedScene> bins, std::span<SimulatedScene> strangers,
+                 int threads, const std::function<void()>& done, Candidate chosen, AdaptationReport& report) {
+  Candidate other = chosen;
+  other.trial.outcome = {};
+  Result<std::vector<std::byte>> file = without_edges(chosen.file);
+  if (!file.ok()) return file.status();
+  other.file = std::move(file).value();
+  Status tried = try_candidate(part, bins, threads, done, other);
+  for (Candidate* candidate : {&chosen, &other}) {
+    if (tried.ok()) tried = try_candidate(part, strangers, threads, done, *candidate);
+  }
+  report.edges_tried = true;
+  report.with_edges = chosen.trial;
+  report.without_edges = other.trial;
+  return tried;
+}
+
 /// Banks for all settings, in parallel.
 Result<std::vector<Candidate>> make_candidates(const PartDescription& part, const AdaptationParameters& adaptation,
                                                const BankBuildParameters& parameters) {
@@ -112,9 +141,9 @@ float adaptation_merit(const TrialOutcome& outcome) {
   return static_cast<float>((found - static_cast<double>(outcome.precision.total - outcome.precision.hits)) / there);
 }
 
-Status adapt_sampling(const PartDescription& part, const AdaptationParameters& adaptation,
-                      const std::function<void(float)>& progress, BankBuildParameters& parameters,
-                      AdaptationReport& report) {
+Status adapt_to_bins(const PartDescription& part, const AdaptationParameters& adaptation,
+                     const std::function<void(float)>& progress, BankBuildParameters& parameters,
+                     AdaptationReport& report) {
   if (adaptation.model_points.empty()) return {};
   Result<std::vector<Candidate>> made = make_candidates(part, adaptation, parameters);
   if (!made.ok()) return made.status();
@@ -124,10 +153,13 @@ Status adapt_sampling(const PartDescription& part, const AdaptationParameters& a
   const Result<TrialPart> trial = trial_part(any.value());
   if (!trial.ok()) return trial.status();
   std::vector<SimulatedScene> bins = trial_bins(trial.value(), 0, adaptation.last_bins, adaptation.bins);
+  std::vector<SimulatedScene> strangers = stranger_bins(trial.value(), adaptation.stranger_bins, adaptation.bins);
 
+  const bool tries_edges = adaptation.edges && parameters.edges_judge;
   const std::size_t first_bins = std::min(adaptation.first_bins, bins.size());
   const std::size_t finalists = std::min(adaptation.finalists, candidates.size());
-  const std::size_t detections = candidates.size() * first_bins + finalists * (bins.size() - first_bins);
+  const std::size_t detections = candidates.size() * first_bins + finalists * (bins.size() - first_bins) +
+                                 (tries_edges ? bins.size() + 2 * strangers.size() : 0);
   std::size_t detected = 0;
   const auto count = [&] {
     progress(building_share +
@@ -147,13 +179,18 @@ Status adapt_sampling(const PartDescription& part, const AdaptationParameters& a
     if (!tried.ok()) return tried;
   }
   std::sort(order.begin(), order.end());
-  report.trials.clear();
+  report = {};
   for (const Candidate& candidate : candidates) report.trials.push_back(candidate.trial);
   report.chosen = *std::max_element(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return candidates[a].trial.merit < candidates[b].trial.merit;
   });
   parameters.sampling = report.trials[report.chosen].sampling;
   parameters.model_points = 0;
+  if (!tries_edges) return {};
+  const Status tried =
+      try_edges(trial.value(), bins, strangers, adaptation.bins.threads, count, candidates[report.chosen], report);
+  if (!tried.ok()) return tried;
+  parameters.edges_judge = report.without_edges.merit < report.with_edges.merit + price_without_edges;
   return {};
 }
 

@@ -15,11 +15,12 @@ namespace graspd {
 struct AdaptationParameters {
   /// Settings that are tried, as points that the whole surface makes at them; fewest, so cheapest, first.
   std::vector<int> model_points{500, 700, 1000, 1400};
-  std::size_t first_bins = 5;  ///< Simulated bins in which every setting is tried,
-  std::size_t last_bins = 15;  ///< those in which the best ones are, the first among them,
-  std::size_t finalists = 2;   ///< how many these are,
-  std::size_t rating_bins =
-      10;  ///< and further ones, unknown to the choice, for what the bank can be expected to find.
+  std::size_t first_bins = 5;     ///< Simulated bins in which every setting is tried,
+  std::size_t last_bins = 15;     ///< those in which the best ones are, the first among them,
+  std::size_t finalists = 2;      ///< how many these are,
+  std::size_t stranger_bins = 5;  ///< bins of other things, in which edges must prove to be superfluous,
+  std::size_t rating_bins = 10;   ///< and further ones, unknown to the choice, in which what it finds is measured.
+  bool edges = true;              ///< Try whether edges judge poses at all.
   TrialRecipe bins;
 };
 
@@ -34,18 +35,22 @@ struct AdaptationTrial {
 struct AdaptationReport {
   std::vector<AdaptationTrial> trials;
   std::size_t chosen = 0;
+  bool edges_tried = false;
+  AdaptationTrial with_edges;     ///< The chosen sampling in all bins, those of other things too, and
+  AdaptationTrial without_edges;  ///< the same with poses that edges do not judge.
 };
 
 /// One figure for what was found: the share of the instances, less that of wrong reports. Instances of which less
 /// than 0.3 can be seen count half.
 [[nodiscard]] float adaptation_merit(const TrialOutcome& outcome);
 
-/// Chooses `parameters.sampling` for the part: makes a bank for each setting and tries it on simulated bins of the
-/// part, the better ones on more. Points cost time on the line, so that a doubling of them must pay. The same part
-/// gives the same choice. `progress` is called with a share in [0, 1]. Fails as build_bank().
-[[nodiscard]] Status adapt_sampling(const PartDescription& part, const AdaptationParameters& adaptation,
-                                    const std::function<void(float)>& progress, BankBuildParameters& parameters,
-                                    AdaptationReport& report);
+/// Chooses `parameters.sampling` for the part, and whether edges judge poses: makes a bank for each setting and tries
+/// it on simulated bins of the part, the better ones on more. Points cost time on the line, so that a doubling of them
+/// must pay; so must doing without edges. The same part gives the same choice. `progress` is called with a share in
+/// [0, 1]. Fails as build_bank().
+[[nodiscard]] Status adapt_to_bins(const PartDescription& part, const AdaptationParameters& adaptation,
+                                   const std::function<void(float)>& progress, BankBuildParameters& parameters,
+                                   AdaptationReport& report);
 
 /// The bank `file` with what it can be expected to find (BankPart::expected), measured in simulated bins. Fails with
 /// bad_bank when the file is not a bank.

@@ -50,9 +50,11 @@ TrialOutcome judged(const Detections& detections, const SimulatedScene& bin, con
   const auto error = [&](std::size_t estimate, std::size_t truth) {
     const RigidTransform& found = detections.instances[estimate].camera_from_part;
     const RigidTransform& real = bin.instances[truth].camera_from_part;
-    const float limit = static_cast<float>(right_pose_error) * part.diameter;
-    if ((found * part.middle - real * part.middle).norm() > limit) return 2.0 * right_pose_error;
-    const float distance = maximum_surface_distance(found, real, part.vertices, part.symmetries, 2.0F * limit);
+    const bool stranger = bin.instances[truth].part != 0;
+    // The middle of the vertices need not lie on an axis of symmetry, but not far from it.
+    if (stranger || (found * part.middle - real * part.middle).norm() > 0.5F * part.diameter) return 1.0;
+    const float limit = 2.0F * static_cast<float>(right_pose_error) * part.diameter;
+    const float distance = maximum_surface_distance(found, real, part.vertices, part.symmetries, limit);
     return static_cast<double>(distance / part.diameter);
   };
   const std::vector<bool> any_visibility(bin.instances.size(), true);
@@ -60,7 +62,8 @@ TrialOutcome judged(const Detections& detections, const SimulatedScene& bin, con
       match_greedily(detections.instances.size(), any_visibility, right_pose_error, error);
   TrialOutcome outcome;
   for (const SimulatedInstance& instance : bin.instances) {
-    if (instance.visibility >= least_visibility) ++outcome.found[visibility_class(instance.visibility)].total;
+    const bool wanted = instance.part == 0 && instance.visibility >= least_visibility;
+    if (wanted) ++outcome.found[visibility_class(instance.visibility)].total;
   }
   for (const std::size_t truth : claimed) {
     ++outcome.precision.total;
@@ -70,6 +73,22 @@ TrialOutcome judged(const Detections& detections, const SimulatedScene& bin, con
     if (visibility >= least_visibility) ++outcome.found[visibility_class(visibility)].hits;
   }
   return outcome;
+}
+
+std::vector<SimulatedScene> simulated_bins(std::span<const SimulatedPart> parts, std::size_t first, std::size_t count,
+                                           const TrialRecipe& recipe) {
+  std::vector<SimulatedScene> bins(count);
+  parallel_for(count, recipe.threads, 1, [&](std::size_t i) {
+    SceneRecipe scene;
+    scene.instances = recipe.instances;
+    scene.strain = strains[(first + i) % strains.size()];
+    scene.sensor_distance = recipe.sensor_distance;
+    scene.maximum_width = recipe.maximum_width;
+    scene.maximum_height = recipe.maximum_height;
+    scene.seed = first + i + 1;
+    bins[i] = simulate_scene(parts, scene);
+  });
+  return bins;
 }
 
 }  // namespace
@@ -82,22 +101,27 @@ Result<TrialPart> trial_part(const Bank& bank) {
   if (!prepared.ok()) return prepared.status();
   const PartMesh& whole = prepared.value();
   return TrialPart{simulated_part(whole.mesh, whole.closed()),
-                   evaluation_part(bank.part->part_id, whole.mesh, bank.part->diameter, bank.symmetry())};
+                   evaluation_part(bank.part->part_id, whole.mesh, bank.part->diameter, bank.symmetry()),
+                   whole.closed()};
 }
 
 std::vector<SimulatedScene> trial_bins(const TrialPart& part, std::size_t first, std::size_t count,
                                        const TrialRecipe& recipe) {
-  std::vector<SimulatedScene> bins(count);
-  parallel_for(count, recipe.threads, 1, [&](std::size_t i) {
-    SceneRecipe scene;
-    scene.instances = recipe.instances;
-    scene.strain = strains[(first + i) % strains.size()];
-    scene.sensor_distance = recipe.sensor_distance;
-    scene.maximum_width = recipe.maximum_width;
-    scene.maximum_height = recipe.maximum_height;
-    scene.seed = first + i + 1;
-    bins[i] = simulate_scene(std::span(&part.simulated, 1), scene);
-  });
+  return simulated_bins(std::span(&part.simulated, 1), first, count, recipe);
+}
+
+std::vector<SimulatedScene> stranger_bins(const TrialPart& part, std::size_t count, const TrialRecipe& recipe) {
+  const std::array proportions{Vector3(1.4F, 1.4F, 1.4F), Vector3(0.7F, 0.7F, 0.7F), Vector3(1.5F, 1.0F, 0.7F)};
+  std::vector<SimulatedPart> strangers;
+  for (const Vector3& factors : proportions) {
+    Mesh mesh = part.simulated.mesh;
+    for (Vector3& vertex : mesh.vertices) vertex = vertex.cwiseProduct(factors);
+    strangers.push_back(simulated_part(mesh, part.closed));
+  }
+  std::vector<SimulatedScene> bins = simulated_bins(strangers, 0, count, recipe);
+  for (SimulatedScene& bin : bins) {
+    for (SimulatedInstance& instance : bin.instances) ++instance.part;
+  }
   return bins;
 }
 

@@ -27,6 +27,7 @@ struct TrialRecipe {
 struct TrialPart {
   SimulatedPart simulated;
   EvaluationPart evaluation;
+  bool closed = false;  ///< Its mesh has no open edges.
 };
 
 /// Fails with bad_file when the bank's mesh cannot be piled up.
@@ -36,6 +37,11 @@ struct TrialPart {
 /// it as most bins do, two hard. The same number is always the same bin.
 [[nodiscard]] std::vector<SimulatedScene> trial_bins(const TrialPart& part, std::size_t first, std::size_t count,
                                                      const TrialRecipe& recipe);
+
+/// Bins of what is not the part but looks much like it: the same shape in other sizes and proportions. Whatever is
+/// reported in them is wrong. Their instances have the part numbers from 1.
+[[nodiscard]] std::vector<SimulatedScene> stranger_bins(const TrialPart& part, std::size_t count,
+                                                        const TrialRecipe& recipe);
 
 /// What became of a bank in one or more bins.
 struct TrialOutcome {

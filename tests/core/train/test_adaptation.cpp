@@ -30,6 +30,7 @@ AdaptationParameters small() {
   adaptation.model_points = {60, 350};
   adaptation.first_bins = 1;
   adaptation.last_bins = 2;
+  adaptation.stranger_bins = 1;
   adaptation.rating_bins = 2;
   adaptation.bins.instances = 4;
   adaptation.bins.maximum_width = 240;
@@ -73,7 +74,7 @@ TEST(Adaptation, TakesTheSamplingThatFindsThePartWhateverTheThreads) {
   BankBuildParameters chosen = quick();
   AdaptationReport report;
   AdaptationParameters adaptation = small();
-  const Status adapted = adapt_sampling(
+  const Status adapted = adapt_to_bins(
       bracket(), adaptation, [&](float share) { shares.push_back(share); }, chosen, report);
   ASSERT_TRUE(adapted.ok()) << adapted.message();
   ASSERT_EQ(report.trials.size(), 2U);
@@ -89,7 +90,7 @@ TEST(Adaptation, TakesTheSamplingThatFindsThePartWhateverTheThreads) {
   adaptation.bins.threads = 2;
   BankBuildParameters again = quick();
   AdaptationReport second;
-  ASSERT_TRUE(adapt_sampling(
+  ASSERT_TRUE(adapt_to_bins(
                   bracket(), adaptation, [](float) {}, again, second)
                   .ok());
   EXPECT_EQ(second.trials[0].merit, report.trials[0].merit);
@@ -103,10 +104,48 @@ TEST(Adaptation, OfSettingsThatFindAsMuchTheCheaperOneIsTaken) {
   adaptation.bins.instances = 0;
   BankBuildParameters chosen = quick();
   AdaptationReport report;
-  ASSERT_TRUE(adapt_sampling(
+  ASSERT_TRUE(adapt_to_bins(
                   bracket(), adaptation, [](float) {}, chosen, report)
                   .ok());
   EXPECT_EQ(report.chosen, 0U);
+}
+
+TEST(Adaptation, NothingInABinOfStrangersIsToBeFound) {
+  BankReport report;
+  const std::vector<std::byte> file = build_bank(bracket(), quick(), report, [](float) {}).value();
+  const Bank bank = read_bank(file, "bracket").value();
+  const TrialPart part = trial_part(bank).value();
+  std::vector<SimulatedScene> bins = stranger_bins(part, 1, small().bins);
+  ASSERT_EQ(bins.at(0).instances.size(), small().bins.instances);
+  for (const SimulatedInstance& instance : bins[0].instances) EXPECT_GE(instance.part, 1U);
+  const TrialOutcome outcome = try_bank(bank, part, bins, 1, [] {}).value();
+  EXPECT_EQ(outcome.precision.hits, 0U);
+  for (const Share& found : outcome.found) EXPECT_EQ(found.total, 0U);
+}
+
+TEST(Adaptation, EdgesThatThePartFileDoesWithoutAreNotTried) {
+  AdaptationParameters adaptation = small();
+  adaptation.bins.instances = 1;
+  BankBuildParameters chosen = quick();
+  AdaptationReport report;
+  ASSERT_TRUE(adapt_to_bins(
+                  bracket(), adaptation, [](float) {}, chosen, report)
+                  .ok());
+  EXPECT_TRUE(report.edges_tried);
+  chosen = quick();
+  chosen.edges_judge = false;
+  ASSERT_TRUE(adapt_to_bins(
+                  bracket(), adaptation, [](float) {}, chosen, report)
+                  .ok());
+  EXPECT_FALSE(report.edges_tried);
+  EXPECT_FALSE(chosen.edges_judge);
+  chosen = quick();
+  adaptation.edges = false;
+  ASSERT_TRUE(adapt_to_bins(
+                  bracket(), adaptation, [](float) {}, chosen, report)
+                  .ok());
+  EXPECT_FALSE(report.edges_tried);
+  EXPECT_TRUE(chosen.edges_judge);
 }
 
 TEST(Adaptation, ARatedBankIsTheSameButForWhatIsExpectedOfIt) {
