@@ -8,6 +8,7 @@
 #include "core/grasp/bin_fit.hpp"
 #include "core/grasp/walls.hpp"
 #include "tests/core/grasp/box_scene.hpp"
+#include "tests/core/grasp/grasp_memory.hpp"
 
 namespace graspd {
 namespace {
@@ -57,15 +58,9 @@ struct BinScene {
       measure_depth(scene.depth, scene.camera, structured_light(SensorStrain::hard, 0.1F), 3, measured);
       frame.depth = measured;
     }
-    std::vector<float> cells(160000);
-    CloudMap map;
-    map.depth_memory = cells;
-    std::vector<Box> tiles(160000 / CloudMap::tile_size + 2 * CloudMap::tile_size);
-    map.tile_memory = tiles;
-    fill_cloud_map(frame, 0.002F, 0.65F, map);
-    std::vector<WallPoint> memory(bin_fit_points);
-    FixedVector<WallPoint> points(memory);
-    return fit_bin(map, given, Vector3::UnitZ(), robot_from_camera, points);
+    GraspMemory memory;
+    fill_cloud_map(frame, 0.002F, 0.65F, memory.workspace.cloud);
+    return fit_bin(memory.workspace.cloud, given, Vector3::UnitZ(), robot_from_camera, memory.workspace.wall_points);
   }
 };
 
