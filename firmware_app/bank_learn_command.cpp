@@ -167,6 +167,7 @@ Status learn_one(const LearnOptions& options, Pupil& pupil, const std::string& o
   if (Status writable = check_writable(output); !writable.ok()) return writable;
   const Result<FrameFileOptions> files = options.files.options();
   if (!files.ok()) return files.status();
+  if (Status there = check_learning_frames(options.frames); !there.ok()) return there;
   options.switches.apply(pupil.build);
   const Result<PartMesh> mesh = prepare_mesh(pupil.part.mesh);
   if (!mesh.ok()) return mesh.status();

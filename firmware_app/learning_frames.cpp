@@ -89,13 +89,8 @@ bool may_show(const FrameToRead& frame, const std::vector<SceneToRead>& scenes, 
   });
 }
 
-}  // namespace
-
-Status for_each_learning_frame(const std::vector<std::string>& paths, const FrameFileOptions& options,
-                               const std::vector<int>& images, std::uint32_t part, float least_visible,
-                               const std::function<Status(LearningFrame&, float)>& visit) {
-  std::vector<SceneToRead> scenes;
-  std::vector<FrameToRead> frames;
+Status list_paths(const std::vector<std::string>& paths, std::vector<SceneToRead>& scenes,
+                  std::vector<FrameToRead>& frames) {
   for (const std::string& path : paths) {
     if (!std::filesystem::exists(path)) {
       return Status::format(StatusCode::bad_file, "%s: no such file or folder", path.c_str());
@@ -107,6 +102,23 @@ Status for_each_learning_frame(const std::vector<std::string>& paths, const Fram
                             path.c_str());
     }
   }
+  return {};
+}
+
+}  // namespace
+
+Status check_learning_frames(const std::vector<std::string>& paths) {
+  std::vector<SceneToRead> scenes;
+  std::vector<FrameToRead> frames;
+  return list_paths(paths, scenes, frames);
+}
+
+Status for_each_learning_frame(const std::vector<std::string>& paths, const FrameFileOptions& options,
+                               const std::vector<int>& images, std::uint32_t part, float least_visible,
+                               const std::function<Status(LearningFrame&, float)>& visit) {
+  std::vector<SceneToRead> scenes;
+  std::vector<FrameToRead> frames;
+  if (Status listed = list_paths(paths, scenes, frames); !listed.ok()) return listed;
   if (!images.empty()) {
     std::erase_if(frames, [&](const FrameToRead& frame) {
       return frame.scene > 0 && std::find(images.begin(), images.end(), frame.image) == images.end();

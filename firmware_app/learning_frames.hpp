@@ -18,6 +18,9 @@ struct LearningFrame {
   std::vector<RigidTransform> true_poses;  ///< camera_from_part, of the part asked for.
 };
 
+/// Whether there is something to learn from, without reading it; fails as for_each_learning_frame() when there is not.
+[[nodiscard]] Status check_learning_frames(const std::vector<std::string>& paths);
+
 /// Reads, one after the other, the frames of `paths` (BOP scene folders, folders of frame files, or frame files) and
 /// hands each to `visit` with the share of them that is done. `part` is the number of the part whose true poses are
 /// wanted: the obj_id of scene_gt.json; poses of which less than `least_visible` can be seen are left out. Images
