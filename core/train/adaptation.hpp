@@ -16,10 +16,10 @@ struct AdaptationParameters {
   /// Settings that are tried, as points that the whole surface makes at them; fewest, so cheapest, first.
   std::vector<int> model_points{500, 700, 1000, 1400};
   std::size_t first_bins = 5;     ///< Simulated bins in which every setting is tried,
-  std::size_t last_bins = 15;     ///< those in which the best ones are, the first among them,
+  std::size_t last_bins = 10;     ///< those in which the best ones are, the first among them,
   std::size_t finalists = 2;      ///< how many these are,
-  std::size_t stranger_bins = 5;  ///< bins of other things, in which edges must prove to be superfluous,
-  std::size_t rating_bins = 10;   ///< and further ones, unknown to the choice, in which what it finds is measured.
+  std::size_t stranger_bins = 3;  ///< bins of other things, in which edges must prove to be superfluous,
+  std::size_t rating_bins = 8;    ///< and further ones, unknown to the choice, in which what it finds is measured.
   bool edges = true;              ///< Try whether edges judge poses at all.
   TrialRecipe bins;
 };
