@@ -174,23 +174,17 @@ Status learn_one(const LearnOptions& options, Pupil& pupil, const std::string& o
 
   const AdaptationSwitches& adaptation = options.switches.adaptation;
   ProgressBar bar;
-  bool settled = pupil.sampling_given || pupil.build.model_points > 0;
-  // Long work: only once there is a frame to learn from.
-  const auto settle = [&]() -> Status {
-    if (std::exchange(settled, true)) return {};
-    return adapt_to_part(pupil.part, adaptation, pupil.edges_given, pupil.part.name, bar, pupil.build);
-  };
+  if (!pupil.sampling_given && pupil.build.model_points == 0) {
+    const Status adapted = adapt_to_part(pupil.part, adaptation, pupil.edges_given, pupil.part.name, bar, pupil.build);
+    if (!adapted.ok()) return adapted;
+  }
   ViewCutter cutter(options, pupil, mesh.value());
   const Status read = for_each_learning_frame(options.frames, files.value(), options.images, pupil.part.part_id,
                                               least_visible, [&](LearningFrame& frame, float share) {
-                                                if (Status adapted = settle(); !adapted.ok()) return adapted;
                                                 bar.show(pupil.part.name + ": " + frame.file.name, 0.6F * share);
                                                 return cutter.take(frame);
                                               });
   if (!read.ok()) return read;
-  if (!options.frames_only) {
-    if (Status adapted = settle(); !adapted.ok()) return adapted;
-  }
   std::vector<CutOut> views = std::move(cutter.views);
   views.insert(views.end(), pupil.views.begin(), pupil.views.end());
   BankReport report;
