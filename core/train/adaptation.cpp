@@ -13,10 +13,10 @@ namespace graspd {
 namespace {
 
 constexpr double weight_of_hidden = 0.5;
-constexpr double price_of_doubling = 0.01;    ///< Of merit, for twice as many points.
-constexpr float price_without_edges = 0.03F;  ///< Of merit: bins hold things that nobody has simulated.
-constexpr float building_share = 0.15F;       ///< Of the progress.
-constexpr float alike = 0.02F;                ///< Settings that differ by this share or less are one.
+constexpr double price_of_doubling = 0.01;   ///< Of merit, for twice as many points.
+constexpr float price_without_edges = 0.1F;  ///< Of merit: bins hold things that nobody has simulated.
+constexpr float building_share = 0.15F;      ///< Of the progress.
+constexpr float alike = 0.02F;               ///< Settings that differ by this share or less are one.
 
 /// A setting while it is tried.
 struct Candidate {
