@@ -68,12 +68,34 @@ enum class Stage : std::uint8_t { preprocess, match, cluster, refine, verify };
 inline constexpr std::size_t stage_count = 5;
 [[nodiscard]] const char* stage_name(Stage stage);
 
+/// What the voting did (paper 1.3).
+struct VotingWork {
+  std::uint64_t pairs = 0;  ///< Pairs of scene points whose feature was looked up.
+  std::uint64_t cells = 0;  ///< Cells of the table that were read; pairs that repeat a vote are passed over.
+  std::uint64_t votes = 0;
+
+  void operator+=(const VotingWork& other) {
+    pairs += other.pairs;
+    cells += other.cells;
+    votes += other.votes;
+  }
+};
+
+/// How much there was to do, over all banks. The same for any number of threads.
+struct DetectionWork {
+  VotingWork voting;
+  std::uint32_t hypotheses = 0;  ///< Peaks of the voting.
+  std::uint32_t clusters = 0;
+  std::uint32_t judged = 0;  ///< Poses that were refined to the end and verified.
+};
+
 /// The outcome of one detection, in memory of the workspace: valid until the next one.
 struct Detections {
   std::span<const Instance> instances;                      ///< Accepted, best score first.
   std::span<const Instance> rejected;                       ///< Judged and rejected, with the reason.
   std::array<std::uint32_t, rejection_count> rejections{};  ///< Hypotheses by reason.
   std::array<std::int64_t, stage_count> stage_ns{};
+  DetectionWork work;
   std::uint32_t flags = 0;
   std::uint32_t scene_points = 0;       ///< Points that took part in the matching.
   std::uint32_t foreground_pixels = 0;  ///< Pixels left after the background was removed; 0: the bin is empty.

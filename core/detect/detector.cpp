@@ -133,11 +133,14 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     if (workspace.preprocess.samples.dropped() > 0) detections.flags |= flag_scene_points_cut;
     clock.end_of(Stage::preprocess);
 
-    match(points, bank, parameters.match, parameters.threads, workspace.match, workspace.hypotheses);
+    detections.work.voting +=
+        match(points, bank, parameters.match, parameters.threads, workspace.match, workspace.hypotheses);
+    detections.work.hypotheses += static_cast<std::uint32_t>(workspace.hypotheses.size());
     record(request.trace, b, TracedStage::voted, workspace.hypotheses);
     clock.end_of(Stage::match);
 
     cluster_hypotheses(workspace.hypotheses.span(), bank, parameters.cluster, workspace.cluster, workspace.clusters);
+    detections.work.clusters += static_cast<std::uint32_t>(workspace.clusters.size());
     if (workspace.clusters.dropped() > 0) detections.flags |= flag_hypotheses_cut;
     rate_plausibility(scene.map, bank, parameters.threads, workspace.clusters);
     record(request.trace, b, TracedStage::clustered, workspace.clusters);
@@ -162,6 +165,7 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     judge_clusters(scene, request, b, parameters, workspace, detections);
     clock.end_of(Stage::verify);
   }
+  detections.work.judged = static_cast<std::uint32_t>(workspace.judged.size());
   if (late(request)) detections.flags |= flag_deadline;
 
   detections.flags |=

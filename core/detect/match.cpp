@@ -34,11 +34,13 @@ bool first_meeting(VotingScratch& scratch, std::uint32_t cell, std::uint32_t sce
 void vote(const NeighbourGrid& scene, const Bank& bank, const OrientedPoint& reference, VotingScratch& scratch) {
   const RigidTransform local_from_camera = local_from_point(reference);
   const float reach = bank.grid.distance_step * static_cast<float>(bank.grid.distance_bins);
+  VotingWork work;
   scene.for_each_run(reference.position, reach, [&](std::uint32_t first, std::uint32_t last) {
     for (std::uint32_t j = first; j < last; ++j) {
       const OrientedPoint& second = scene.points[j];
       const float squared = (second.position - reference.position).squaredNorm();
       if (squared >= reach * reach || squared < bank.grid.distance_step * bank.grid.distance_step) continue;
+      ++work.pairs;
       const std::uint32_t cell = ppf_cell(ppf_feature(reference, second), bank.grid);
       // Rounding can put a pair at the very reach beyond the last bin.
       if (cell == no_ppf_cell) continue;
@@ -47,6 +49,8 @@ void vote(const NeighbourGrid& scene, const Bank& bank, const OrientedPoint& ref
       if (begin == end) continue;
       const std::uint32_t scene_alpha = alpha_bin(alpha_of(local_from_camera, second.position));
       if (!first_meeting(scratch, cell, scene_alpha)) continue;
+      ++work.cells;
+      work.votes += end - begin;
       // Half a bin is added so that the 256 steps of the difference round to the nearest of 32.
       const std::uint32_t rounded = scene_alpha + 4U;
       for (std::uint32_t e = begin; e < end; ++e) {
@@ -55,6 +59,7 @@ void vote(const NeighbourGrid& scene, const Bank& bank, const OrientedPoint& ref
       }
     }
   });
+  scratch.work += work;
 }
 
 /// A maximum of the accumulator.
@@ -154,9 +159,10 @@ MatchWorkspace carve_match_workspace(Arena& arena, const DetectCapacity& capacit
   return workspace;
 }
 
-void match(const NeighbourGrid& scene, const Bank& bank, const MatchParameters& parameters, int threads,
-           MatchWorkspace& workspace, FixedVector<Hypothesis>& hypotheses) {
+VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParameters& parameters, int threads,
+                 MatchWorkspace& workspace, FixedVector<Hypothesis>& hypotheses) {
   hypotheses.clear();
+  for (VotingScratch& scratch : workspace.threads) scratch.work = {};
   const std::size_t per_reference =
       std::clamp<std::size_t>(static_cast<std::size_t>(parameters.peaks_per_reference), 1, most_peaks);
   std::size_t step = static_cast<std::size_t>(std::max(1, parameters.reference_step));
@@ -187,6 +193,9 @@ void match(const NeighbourGrid& scene, const Bank& bank, const MatchParameters& 
     for (std::size_t k = 0; k < workspace.slots_used[i]; ++k)
       hypotheses.push_back(workspace.slots[i * per_reference + k]);
   }
+  VotingWork work;
+  for (const VotingScratch& scratch : workspace.threads) work += scratch.work;
+  return work;
 }
 
 }  // namespace graspd

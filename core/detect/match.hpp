@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/bank/bank.hpp"
+#include "core/detect/detections.hpp"
 #include "core/detect/neighbour_grid.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/memory/arena.hpp"
@@ -25,6 +26,7 @@ struct VotingScratch {
   std::span<float> best_votes;           ///< For each reference, its best alpha's votes
   std::span<std::uint8_t> best_alpha;    ///< and that alpha.
   std::uint32_t epoch = 0;
+  VotingWork work;  ///< Of the matching in hand.
 };
 
 struct MatchWorkspace {
@@ -37,8 +39,8 @@ struct MatchWorkspace {
 
 /// Votes for poses of the bank's part, all views, around every reference point of the scene (Drost et
 /// al. 2010, over views as in paper 2.4; pairs that repeat a vote are skipped, Hinterstoisser et al.
-/// 2016). Several peaks are kept for each reference point.
-void match(const NeighbourGrid& scene, const Bank& bank, const MatchParameters& parameters, int threads,
-           MatchWorkspace& workspace, FixedVector<Hypothesis>& hypotheses);
+/// 2016). Several peaks are kept for each reference point. Returns what it took.
+VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParameters& parameters, int threads,
+                 MatchWorkspace& workspace, FixedVector<Hypothesis>& hypotheses);
 
 }  // namespace graspd

@@ -36,6 +36,9 @@ std::string bytes_of(const Detections& detections) {
        {detections.flags, detections.scene_points, detections.foreground_pixels, detections.measured_pixels}) {
     append(bytes, number);
   }
+  const DetectionWork& work = detections.work;
+  for (const std::uint64_t count : {work.voting.pairs, work.voting.cells, work.voting.votes}) append(bytes, count);
+  for (const std::uint32_t count : {work.hypotheses, work.clusters, work.judged}) append(bytes, count);
   return bytes;
 }
 
