@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -9,9 +8,8 @@
 #include "drivers/files/atomic_file.hpp"
 #include "drivers/files/detection_picture.hpp"
 #include "drivers/system/clock.hpp"
-#include "firmware_app/camera_placement.hpp"
 #include "firmware_app/commands.hpp"
-#include "firmware_app/configuration.hpp"
+#include "firmware_app/configuration_switches.hpp"
 #include "firmware_app/detection_report.hpp"
 #include "firmware_app/detection_session.hpp"
 #include "firmware_app/drawn_grasps.hpp"
@@ -33,42 +31,13 @@ struct DetectOptions {
   std::string picture;
   bool rejected = false;
   bool replayable = false;
-  std::string configuration;
-  std::vector<float> flange;
+  ConfigurationSwitches configuration;
 };
 
 Result<LoadedFrame> read_frame(const DetectOptions& options) {
   const Result<FrameFileOptions> files = options.files.options();
   if (!files.ok()) return files.status();
   return load_frame(options.frame, files.value());
-}
-
-/// Puts a camera that is on the flange where it was when the frame was taken.
-Status take_flange_pose(const std::vector<float>& flange, Configuration& configuration) {
-  if (!configuration.camera_on_flange) return {};
-  if (flange.empty()) {
-    return {StatusCode::usage,
-            "the camera is on the flange (calibration.flange_from_camera): give the flange's pose with --flange"};
-  }
-  const Eigen::Quaternionf turn(flange[6], flange[3], flange[4], flange[5]);
-  if (std::abs(turn.norm() - 1.0F) > 0.01F) {
-    return {StatusCode::usage, "--flange: the last four numbers must be a quaternion (x, y, z, w) of length 1"};
-  }
-  const RigidTransform robot_from_flange{turn.normalized().toRotationMatrix(),
-                                         0.001F * Vector3(flange[0], flange[1], flange[2])};
-  DetectSettings& detect = configuration.detect;
-  place_camera(robot_from_flange * configuration.flange_from_camera, detect.robot_from_box, detect.parameters,
-               configuration.grasp.parameters);
-  return {};
-}
-
-/// As the configuration file says, or with the defaults.
-Result<Configuration> read_settings(const DetectOptions& options) {
-  if (options.configuration.empty()) return Configuration{};
-  Result<Configuration> configuration = read_configuration(options.configuration);
-  if (!configuration.ok()) return configuration;
-  if (Status placed = take_flange_pose(options.flange, configuration.value()); !placed.ok()) return placed;
-  return configuration;
 }
 
 std::string caption(const LoadedFrame& frame, const Detections& detections, double seconds) {
@@ -82,7 +51,7 @@ Status detect_frame(const DetectOptions& options) {
   if (!banks.ok()) return banks.status();
   Result<LoadedFrame> loaded = read_frame(options);
   if (!loaded.ok()) return loaded.status();
-  const Result<Configuration> settings = read_settings(options);
+  const Result<Configuration> settings = options.configuration.read();
   if (!settings.ok()) return settings.status();
   LoadedFrame& file = loaded.value();
   const DepthFrame frame = file.frame();
@@ -143,14 +112,9 @@ void add_detect_command(CLI::App& command_line, Status& outcome) {
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--json", options->json, "Write the result as JSON into this file; - for stdout");
   command->add_option("--picture", options->picture, "Write the frame with the instances over it into this PNG");
-  command->add_option(
-      "--config", options->configuration,
+  add_configuration_switches(
+      *command, options->configuration,
       "Detect as [detect] says and choose the pick with the tools, limits and calibration of this graspd.toml");
-  command
-      ->add_option("--flange", options->flange,
-                   "For a camera on the flange: the flange's pose at the exposure, x y z qx qy qz qw, millimetres")
-      ->expected(7)
-      ->needs("--config");
   command->add_flag("--replayable", options->replayable,
                     "JSON without the frame's name and times, as recordings hold it");
   command->add_flag("--rejected", options->rejected, "List every rejected hypothesis with its reason");
