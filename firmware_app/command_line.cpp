@@ -73,6 +73,7 @@ int run_command_line(int argument_count, const char* const* arguments) {
   add_bank_learn_command(*bank, outcome);
   add_bank_show_command(*bank, outcome);
   add_validate_command(app, outcome);
+  add_bench_command(app, outcome);
   add_check_command(app, outcome);
   add_camera_commands(app, outcome);
   add_simulate_command(app, outcome);

@@ -21,5 +21,6 @@ void add_camera_commands(CLI::App& command_line, Status& outcome);
 void add_simulate_command(CLI::App& command_line, Status& outcome);
 void add_check_command(CLI::App& command_line, Status& outcome);
 void add_calibrate_command(CLI::App& command_line, Status& outcome);
+void add_bench_command(CLI::App& command_line, Status& outcome);
 
 }  // namespace graspd

@@ -23,6 +23,11 @@ class DetectionSession {
   [[nodiscard]] Status run(const DepthFrame& frame, const DetectRequest& request, const DetectParameters& parameters,
                            Detections& detections);
 
+  /// The points of the last detection that voted for its last bank, in camera coordinates.
+  [[nodiscard]] std::span<const OrientedPoint> scene_points() const { return workspace_.preprocess.samples.span(); }
+  /// For what the memory was taken.
+  [[nodiscard]] const DetectCapacity& capacity() const { return workspace_.capacity; }
+
  private:
   FrameLimits limits_;
   MemoryBlock block_;

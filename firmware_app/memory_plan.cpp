@@ -46,6 +46,12 @@ std::size_t MemoryPlan::total() const {
   return sum;
 }
 
+void add_arena_rows(const Arena& arena, MemoryPlan& plan) {
+  plan.arena_bytes += arena.used();
+  for (const ArenaOwner& owner : arena.owners())
+    plan.rows.push_back({"arena: " + std::string(owner.name), owner.bytes});
+}
+
 std::size_t resident_bytes() {
   std::size_t pages = 0;
   if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
@@ -67,9 +73,7 @@ MemoryPlan plan_memory(const Configuration& configuration, const LoadedBanks& ba
 
   Arena arena = Arena::measuring();
   static_cast<void>(carve_working_memory(arena, plan.capacity));
-  plan.arena_bytes = arena.used();
-  for (const ArenaOwner& owner : arena.owners())
-    plan.rows.push_back({"arena: " + std::string(owner.name), owner.bytes});
+  add_arena_rows(arena, plan);
   plan.rows.push_back({"banks (mapped, shared)", banks.mapped_bytes()});
   if (recorded_bytes > 0) plan.rows.push_back({"camera or recorded frames", recorded_bytes});
   if (plan.capacity.picture) {
@@ -104,16 +108,21 @@ Status check_budget(const Configuration& configuration, const MemoryPlan& plan) 
                         mebibytes(largest->bytes), largest->name.c_str());
 }
 
-std::string memory_table(const MemoryPlan& plan, std::size_t budget) {
+std::string memory_rows(const MemoryPlan& plan) {
   std::string table;
   char line[160];
   for (const MemoryPlan::Row& row : plan.rows) {
     std::snprintf(line, sizeof line, "%-32s %10.2f MiB\n", row.name.c_str(), mebibytes(row.bytes));
     table += line;
   }
-  std::snprintf(line, sizeof line, "%-32s %10.2f MiB\n%-32s %10.2f MiB (memory.budget)\n", "together",
-                mebibytes(plan.total()), "allowed", mebibytes(budget));
+  std::snprintf(line, sizeof line, "%-32s %10.2f MiB\n", "together", mebibytes(plan.total()));
   return table + line;
+}
+
+std::string memory_table(const MemoryPlan& plan, std::size_t budget) {
+  char line[160];
+  std::snprintf(line, sizeof line, "%-32s %10.2f MiB (memory.budget)\n", "allowed", mebibytes(budget));
+  return memory_rows(plan) + line;
 }
 
 }  // namespace graspd

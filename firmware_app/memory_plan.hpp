@@ -50,6 +50,9 @@ struct MemoryPlan {
   [[nodiscard]] std::size_t total() const;
 };
 
+/// Adds what each owner takes of `arena`.
+void add_arena_rows(const Arena& arena, MemoryPlan& plan);
+
 /// Memory of this process that is resident now (bytes): to be asked before anything is loaded.
 [[nodiscard]] std::size_t resident_bytes();
 
@@ -67,7 +70,9 @@ inline constexpr std::size_t thread_stack_bytes = std::size_t{2} << 20U;
 /// Fails with memory_limit when the plan exceeds the configured budget: says by how much and what to do.
 [[nodiscard]] Status check_budget(const Configuration& configuration, const MemoryPlan& plan);
 
-/// The plan as a table for a person.
+/// The plan as a table for a person: its rows and their sum,
+[[nodiscard]] std::string memory_rows(const MemoryPlan& plan);
+/// and what is allowed.
 [[nodiscard]] std::string memory_table(const MemoryPlan& plan, std::size_t budget);
 
 }  // namespace graspd

@@ -77,6 +77,14 @@ TEST_F(BadInput, Cameras) {
   expect_refusal({"simulate", scene_.string(), "--address", "192.0.2.7"}, 8, {"192.0.2.7", "cannot listen"});
 }
 
+TEST_F(BadInput, Bench) {
+  expect_refusal({"bench", "--bank", bank_}, 2, {"FRAMES"});
+  expect_refusal({"bench", frame_}, 2, {"--bank"});
+  expect_refusal({"bench", frame_, "--bank", bank_, "--detections", "0"}, 2, {"--detections"});
+  expect_refusal({"bench", folder_.path("none"), "--bank", bank_}, 4, {"none", "No such file"});
+  expect_refusal({"bench", frame_, "--bank", folder_.path("none.bank")}, 5, {"none.bank"});
+}
+
 TEST_F(BadInput, CameraKeys) {
   const auto refused = [this](const std::string& keys, const std::string& words) {
     const std::string file =
@@ -215,6 +223,8 @@ TEST_F(BadInput, OutputThatCannotBeWritten) {
   expect_refusal({"bank", "compile", part, "-o", place}, 6, {place});
   expect_refusal({"detect", frame_, "--bank", bank_, "--picture", place}, 6, {place});
   expect_refusal({"detect", frame_, "--bank", bank_, "--json", place}, 6, {place});
+  expect_refusal({"bench", frame_, "--bank", bank_, "--picture", place}, 6, {place});
+  expect_refusal({"bench", frame_, "--bank", bank_, "--json", place}, 6, {place});
   expect_refusal({"bank", "show", bank_, "--picture", place}, 6, {place});
   expect_refusal({"run", "--config", configuration("[output]\npicture = \"" + place + "\"\n[memory]\nlock = false\n")},
                  6, {place});
