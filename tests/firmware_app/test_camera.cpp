@@ -5,68 +5,16 @@
 #include <cstring>
 #include <string>
 
-#include "drivers/files/atomic_file.hpp"
 #include "drivers/files/bop_dataset.hpp"
-#include "drivers/plc/modbus_client.hpp"
-#include "tests/drivers/camera/private_network.hpp"
-#include "tests/firmware_app/graspd_process.hpp"
-#include "tests/firmware_app/pick_cycle_fixture.hpp"
+#include "tests/firmware_app/camera_and_daemon.hpp"
 
 namespace graspd {
 namespace {
 
 using testing::HasSubstr;
 
-constexpr std::chrono::seconds patience{60};
-
 /// The built binary as a camera, as its client, and as both.
-class CameraCommands : public testing::Test {
- protected:
-  void SetUp() override {
-    enter_private_network();
-    scene_ = write_bop_scene(folder_.path("data"), angle_bar_scene());
-    ASSERT_TRUE(write_file(folder_.path("bar.bank"), shared_angle_bar_bank()).ok());
-  }
-
-  void switch_camera_on(std::vector<std::string> more = {}) {
-    more.insert(more.begin(), {"simulate", scene_.string(), "--serial", "BAR1"});
-    camera_.emplace(camera_folder_, std::move(more));
-    ASSERT_TRUE(camera_->wait_for("plays ", patience)) << camera_->errors();
-  }
-
-  /// Starts `graspd run` with these lines in [camera].
-  void start_daemon(const std::string& camera, const std::string& more = "") {
-    const std::string configuration = folder_.write(
-        "graspd.toml", "banks = [\"bar.bank\"]\n[camera]\n" + camera +
-                           "\n[modbus]\naddress = \"127.0.0.1\"\nport = 0\n" + "[memory]\nlock = false\n" + more);
-    daemon_.emplace(daemon_folder_, std::vector<std::string>{"run", "--config", configuration});
-    const std::optional<std::string> port = daemon_->wait_for(" port=", patience);
-    ASSERT_TRUE(port) << daemon_->errors();
-    port_ = static_cast<std::uint16_t>(std::stoi(*port));
-  }
-  void start_daemon_on_camera(const std::string& more = "") {
-    start_daemon("source = \"genicam\"\ndevice = \"127.0.0.1\"\ntimeout = 1.0\nempty_bin = \"" +
-                     (scene_ / "empty" / "000000.png").string() + "\"",
-                 more);
-  }
-
-  ResultBlock ask() const {
-    Result<ModbusClient> client = ModbusClient::connect("127.0.0.1", port_, BlockFormat{});
-    EXPECT_TRUE(client.ok()) << client.status().message();
-    if (!client.ok()) return {};
-    const Result<ResultBlock> block = client.value().request_pick({}, patience);
-    EXPECT_TRUE(block.ok()) << block.status().message() << daemon_->errors();
-    return block.ok() ? block.value() : ResultBlock{};
-  }
-
-  TemporaryFolder folder_;
-  TemporaryFolder camera_folder_;
-  TemporaryFolder daemon_folder_;
-  std::filesystem::path scene_;
-  std::optional<GraspdProcess> camera_;
-  std::optional<GraspdProcess> daemon_;
-  std::uint16_t port_ = 0;
-};
+class CameraCommands : public CameraAndDaemon {};
 
 TEST_F(CameraCommands, PicksOverTheWireEqualThoseFromFiles) {
   start_daemon("source = \"recorded\"\npath = \"" + scene_.string() + "\"");
@@ -89,6 +37,22 @@ TEST_F(CameraCommands, PicksOverTheWireEqualThoseFromFiles) {
     daemon_.reset();
     camera_.reset();
   }
+}
+
+TEST_F(CameraCommands, RecordsForReplayWhatCameOverTheWire) {
+  switch_camera_on({"--format", "Coord3D_ABC16"});
+  start_daemon_on_camera("[record]\nfolder = \"records\"\nwhen = \"always\"\n");
+  ASSERT_TRUE(daemon_->wait_for("code=N203", patience)) << daemon_->errors();
+  EXPECT_EQ(ask().code, ResultCode::ok);
+  ASSERT_TRUE(daemon_->wait_for("code=I017 recorded ", patience)) << daemon_->errors();
+  const std::filesystem::path recording = folder_.path("records/recorded/000001");
+  const TemporaryFolder client;
+  const GraspdOutcome replay =
+      run_graspd(client, {"detect", (recording / "depth" / "000000.tiff").string(), "--bank", folder_.path("bar.bank"),
+                          "--config", folder_.path("graspd.toml"), "--rejected", "--replayable", "--json", "-"});
+  EXPECT_EQ(replay.exit_code, 0) << replay.errors;
+  std::ifstream file(recording / "detections.json");
+  EXPECT_EQ(replay.output, std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
 TEST_F(CameraCommands, DaemonOutlivesItsCamera) {
@@ -132,6 +96,16 @@ TEST_F(CameraCommands, ShowsAndSavesWhatTheCameraSends) {
   EXPECT_EQ(original.value().camera.fx, back.value().camera.fx);
   EXPECT_EQ(original.value().camera.cy, back.value().camera.cy);
 
+  const GraspdOutcome list = run_graspd(client, {"camera", "list"});
+  EXPECT_EQ(list.exit_code, 0) << list.errors;
+  EXPECT_THAT(list.output, testing::ContainsRegex("BAR1 +127\\.0\\.0\\.1 +graspd +Simulated3DCamera"));
+  for (const char* name : {"BAR1", "first"}) {
+    EXPECT_EQ(run_graspd(client, {"camera", "show", "--device", name}).output, show.output) << name;
+  }
+  const GraspdOutcome stranger = run_graspd(client, {"camera", "show", "--device", "BAR2"});
+  EXPECT_EQ(stranger.exit_code, 10);
+  EXPECT_THAT(stranger.errors, HasSubstr("no camera with serial number BAR2"));
+
   camera_.reset();
   const GraspdOutcome gone = run_graspd(client, {"camera", "show", "--device", "127.0.0.1"});
   EXPECT_EQ(gone.exit_code, 10);
@@ -151,6 +125,18 @@ TEST_F(CameraCommands, ObeysAClientThatIsNotOurs) {
   EXPECT_THAT(text, HasSubstr("Width = 320"));
   EXPECT_THAT(text, HasSubstr("Scan3dFocalLength = 400"));
   EXPECT_THAT(text, HasSubstr("ExposureTime = 1234"));
+}
+
+TEST_F(CameraCommands, StreamsToAClientThatIsNotOurs) {
+  if (std::system("arv-camera-test-0.8 --help > /dev/null 2>&1") != 0)
+    GTEST_SKIP() << "arv-camera-test is not installed";
+  switch_camera_on();
+  const std::string output = folder_.path("arv.txt");
+  EXPECT_EQ(std::system(("arv-camera-test-0.8 --duration=2 > " + output + " 2>&1").c_str()), 0);
+  std::ifstream file(output);
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  EXPECT_THAT(text, testing::ContainsRegex("n_completed_buffers +=.*[1-9]"));
+  EXPECT_THAT(text, testing::ContainsRegex("n_failures +=.* 0\n"));
 }
 
 }  // namespace
