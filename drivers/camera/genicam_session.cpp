@@ -15,71 +15,6 @@ constexpr std::int64_t slice_ns = 50'000'000;
 /// Taken by a heartbeat thread of Aravis.
 void note_lost(ArvDevice*, std::atomic<bool>* lost) { *lost = true; }
 
-/// When the first packet of the buffer arrived, on our clock. The exposure was over by then.
-std::int64_t arrival_ns(ArvBuffer* buffer) {
-  const std::int64_t now_real_ns = g_get_real_time() * 1000;
-  const auto arrived_real_ns = static_cast<std::int64_t>(arv_buffer_get_system_timestamp(buffer));
-  return monotonic_ns() - std::max<std::int64_t>(0, now_real_ns - arrived_real_ns);
-}
-
-PixelBlock block_of(ArvBuffer* buffer, guint part) {
-  std::size_t size = 0;
-  const void* data = arv_buffer_get_part_data(buffer, part, &size);
-  gint padding_x = 0;
-  gint padding_y = 0;
-  arv_buffer_get_part_padding(buffer, part, &padding_x, &padding_y);
-  PixelBlock block;
-  block.format = static_cast<PixelFormat>(arv_buffer_get_part_pixel_format(buffer, part));
-  block.width = arv_buffer_get_part_width(buffer, part);
-  block.height = arv_buffer_get_part_height(buffer, part);
-  block.row_padding = static_cast<std::size_t>(std::max(padding_x, 0));
-  block.bytes = {static_cast<const std::byte*>(data), data == nullptr ? 0 : size};
-  return block;
-}
-
-bool is_confidence(ArvBuffer* buffer, guint part) {
-  const auto format = static_cast<PixelFormat>(arv_buffer_get_part_pixel_format(buffer, part));
-  return arv_buffer_get_part_data_type(buffer, part) == ARV_BUFFER_PART_DATA_TYPE_CONFIDENCE_MAP ||
-         format == PixelFormat::confidence1 || format == PixelFormat::confidence8 ||
-         format == PixelFormat::confidence16 || format == PixelFormat::confidence32f;
-}
-
-/// The part of the buffer that holds depth, and the one with confidences; -1: none.
-struct BufferParts {
-  int depth = -1;
-  int confidence = -1;
-};
-
-BufferParts find_parts(ArvBuffer* buffer, PixelFormat depth_format) {
-  BufferParts parts;
-  const guint count = arv_buffer_get_n_parts(buffer);
-  for (guint i = 0; i < count; ++i) {
-    if (is_confidence(buffer, i)) {
-      parts.confidence = static_cast<int>(i);
-    } else if (parts.depth < 0 &&
-               static_cast<PixelFormat>(arv_buffer_get_part_pixel_format(buffer, i)) == depth_format) {
-      parts.depth = static_cast<int>(i);
-    }
-  }
-  // A single image of another format is looked at too: decoding says what is wrong with it.
-  if (parts.depth < 0 && count == 1) parts.depth = 0;
-  return parts;
-}
-
-/// Bytes that the leader of the buffer announced and no packet brought. Aravis takes a buffer for whole as soon as its
-/// trailer is there, and leaves in the rest what was in it before.
-std::size_t missing_bytes(ArvBuffer* buffer) {
-  std::size_t announced = 0;
-  for (guint i = 0; i < arv_buffer_get_n_parts(buffer); ++i) {
-    std::size_t size = 0;
-    arv_buffer_get_part_data(buffer, i, &size);
-    announced += size;
-  }
-  std::size_t received = 0;
-  arv_buffer_get_data(buffer, &received);
-  return announced > received ? announced - received : 0;
-}
-
 }  // namespace
 
 GenicamSession::GenicamSession(GenicamDevice device, const GenicamOptions& options)
@@ -203,7 +138,11 @@ Status GenicamSession::accept(ArvBuffer* buffer) {
     keep(buffer);
     return {};
   }
+  // Aravis drops what a larger region than before brings too much, and calls the buffer whole.
+  const BufferParts parts = missing_data > 0 ? find_parts(buffer, interpretation_.decoding.format) : BufferParts{};
+  const Status as_before = parts.depth >= 0 ? check_image(buffer, parts.depth) : Status();
   arv_stream_push_buffer(stream_, buffer);
+  if (!as_before.ok()) return as_before;
   switch (status) {
     case ARV_BUFFER_STATUS_SUCCESS:
       return Status::format(StatusCode::bad_frame, "the frame came in part: the camera never sent %zu bytes of it",
@@ -273,6 +212,26 @@ void GenicamSession::idle(std::int64_t duration_ns) {
   for (; buffer != nullptr; buffer = arv_stream_try_pop_buffer(stream_)) static_cast<void>(accept(buffer));
 }
 
+Status GenicamSession::check_image(ArvBuffer* buffer, int part) {
+  const Camera& camera = interpretation_.camera;
+  const PixelBlock block = block_of(buffer, part);
+  const ImagePlace place = place_of(buffer, part);
+  if (!first_place_) first_place_ = place;
+  changed_ = true;
+  if (block.width != camera.width || block.height != camera.height) {
+    return Status::format(StatusCode::bad_frame,
+                          "the frame has %d x %d pixels, but Width and Height were %d and %d; they are read again",
+                          block.width, block.height, camera.width, camera.height);
+  }
+  if (place != *first_place_) {
+    return Status::format(StatusCode::bad_frame,
+                          "the frame begins at %d, %d of the sensor, those before at %d, %d; the nodes are read again",
+                          place.x, place.y, first_place_->x, first_place_->y);
+  }
+  changed_ = false;
+  return {};
+}
+
 Status GenicamSession::decode(std::span<float> storage, DepthFrame& frame) {
   const Camera& camera = interpretation_.camera;
   const BufferParts parts = find_parts(kept_, interpretation_.decoding.format);
@@ -281,19 +240,13 @@ Status GenicamSession::decode(std::span<float> storage, DepthFrame& frame) {
     return Status::format(StatusCode::bad_frame, "the frame has no part of %s",
                           pixel_format_name(interpretation_.decoding.format));
   }
-  const PixelBlock block = block_of(kept_, static_cast<guint>(parts.depth));
-  Status decoded;
-  if (block.width != camera.width || block.height != camera.height) {
-    changed_ = true;
-    decoded = Status::format(StatusCode::bad_frame,
-                             "the frame has %d x %d pixels, but Width and Height were %d and %d; they are read again",
-                             block.width, block.height, camera.width, camera.height);
-  } else {
-    decoded = decode_depth(interpretation_.decoding, block, storage);
-    if (!decoded.ok()) changed_ = true;
+  Status decoded = check_image(kept_, parts.depth);
+  if (decoded.ok()) {
+    decoded = decode_depth(interpretation_.decoding, block_of(kept_, parts.depth), storage);
+    changed_ = !decoded.ok();
   }
   if (decoded.ok() && has_confidence_ && parts.confidence >= 0) {
-    decoded = apply_confidence(block_of(kept_, static_cast<guint>(parts.confidence)), camera, storage);
+    decoded = apply_confidence(block_of(kept_, parts.confidence), camera, storage);
   }
   if (decoded.ok()) {
     frame = {camera, storage.first(camera.pixel_count()), kept_captured_ns_, ++frames_};

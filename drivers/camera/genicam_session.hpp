@@ -3,11 +3,13 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "core/geometry/depth_frame.hpp"
 #include "core/status.hpp"
+#include "drivers/camera/genicam_buffer.hpp"
 #include "drivers/camera/genicam_device.hpp"
 #include "drivers/camera/genicam_setup.hpp"
 #include "drivers/camera/scan3d.hpp"
@@ -63,6 +65,7 @@ class GenicamSession {
   [[nodiscard]] Status set_up();
   [[nodiscard]] Status start_stream();
   [[nodiscard]] Status accept(ArvBuffer* buffer);
+  [[nodiscard]] Status check_image(ArvBuffer* buffer, int part);
   void keep(ArvBuffer* buffer);
   ArvBuffer* wait_for_buffer(std::int64_t deadline_ns, const std::atomic<bool>& wanted);
   Status missing_frame() const;
@@ -74,6 +77,7 @@ class GenicamSession {
   std::string name_;
   Scan3dInterpretation interpretation_;
   bool has_confidence_ = false;
+  std::optional<ImagePlace> first_place_;
   ArvStream* stream_ = nullptr;
   ArvBuffer* kept_ = nullptr;
   std::int64_t kept_captured_ns_ = 0;

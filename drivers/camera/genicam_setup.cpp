@@ -22,6 +22,7 @@ Status select_components(const GenicamDevice& device, bool want_confidence, bool
                                                           : nullptr;
   if (depth == nullptr) return {};
   const bool several = arv_camera_gv_is_multipart_supported(device.handle(), nullptr) != FALSE;
+  bool others = false;
   for (const std::string& component : components) {
     const bool confidence = component == "Confidence" && want_confidence && several;
     if (Status set = device.set({"ComponentSelector", component}); !set.ok()) return set;
@@ -29,9 +30,11 @@ Status select_components(const GenicamDevice& device, bool want_confidence, bool
     if (enabled.code() == StatusCode::camera_lost) return enabled;
     // A component that cannot be switched is on or off for good; only depth must be on.
     if (!enabled.ok() && component == depth) return enabled;
-    if (confidence && device.read_flag("ComponentEnable").value_or(false)) sends_confidence = true;
+    if (component == depth || !device.read_flag("ComponentEnable").value_or(false)) continue;
+    others = true;
+    sends_confidence = sends_confidence || confidence;
   }
-  if (several) arv_camera_gv_set_multipart(device.handle(), sends_confidence ? TRUE : FALSE, nullptr);
+  if (several) arv_camera_gv_set_multipart(device.handle(), others ? TRUE : FALSE, nullptr);
   return device.set({"ComponentSelector", std::string(depth)});
 }
 

@@ -23,6 +23,8 @@ std::chrono::steady_clock::time_point time_point(std::int64_t monotonic) {
 
 }  // namespace
 
+std::int64_t longer_pause(std::int64_t pause_ns) { return std::clamp(2 * pause_ns, first_pause_ns, longest_pause_ns); }
+
 GenicamSource::GenicamSource(GenicamOptions options, LoadedFrame empty_bin)
     : options_(std::move(options)), empty_bin_(std::move(empty_bin)) {
   std::snprintf(name_.data(), name_.size(), "none yet");
@@ -104,7 +106,7 @@ void GenicamSource::connect() {
                 static_cast<int>(why.message().size()), why.message().data());
     }
     last_failure_ = opened.status();
-    pause_ns_ = std::clamp(2 * pause_ns_, first_pause_ns, longest_pause_ns);
+    pause_ns_ = longer_pause(pause_ns_);
     next_attempt_ns_ = monotonic_ns() + pause_ns_;
     return;
   }

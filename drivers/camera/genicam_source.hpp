@@ -15,6 +15,9 @@
 
 namespace graspd {
 
+/// How long to wait before the camera is looked for again, after a pause of `pause_ns` (0: none yet) did not help.
+[[nodiscard]] std::int64_t longer_pause(std::int64_t pause_ns);
+
 /// Frames from a GenICam camera. A thread of its own talks to the camera, connects again with growing pauses
 /// whenever it is lost, and decodes into the storage of the request; so grab() returns in time whatever the
 /// network does, and allocates nothing: what Aravis allocates, it does on its own threads and on this one.

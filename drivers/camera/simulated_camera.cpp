@@ -10,7 +10,6 @@
 #include <cstring>
 #include <utility>
 
-#include "drivers/camera/simulated_registers.hpp"
 #include "drivers/system/clock.hpp"
 
 namespace graspd {
@@ -104,8 +103,21 @@ SimulatedCamera::~SimulatedCamera() {
   thread_.join();
 }
 
-void SimulatedCamera::set_region(int width, int height) {
-  region_ = static_cast<std::uint64_t>(width) << 32U | static_cast<std::uint64_t>(height);
+void SimulatedCamera::set_region(const SensorRegion& region) {
+  std::uint64_t packed = 0;
+  for (const int number : {region.left, region.top, region.width, region.height}) {
+    packed = packed << 16U | static_cast<std::uint16_t>(number);
+  }
+  region_ = packed;
+}
+
+SensorRegion SimulatedCamera::region() const {
+  return {static_cast<int>(get(reg::offset_x)), static_cast<int>(get(reg::offset_y)), static_cast<int>(get(reg::width)),
+          static_cast<int>(get(reg::height))};
+}
+
+bool SimulatedCamera::sends(SimulatedComponent component) const {
+  return get(component_enable_register(component)) != 0;
 }
 
 void SimulatedCamera::set_up_registers() {
@@ -133,17 +145,18 @@ void SimulatedCamera::set_up_registers() {
   put(reg::stream_capability, reg::stream_multipart);
 
   const Camera& camera = frames_.front().camera;
-  set_region(camera.width, camera.height);
+  set_region({0, 0, camera.width, camera.height});
   put(reg::pixel_format, static_cast<std::uint32_t>(options_.encoding.format));
   put(reg::output_mode, static_cast<std::uint32_t>(options_.encoding.disparity ? SimulatedOutputMode::disparity_c
                                                                                : SimulatedOutputMode::calibrated_c));
   put(reg::frame_period, 100'000);
-  put(reg::component_enable, 1);
+  put(component_enable_register(SimulatedComponent::range), 1);
+  put(component_enable_register(SimulatedComponent::intensity), options_.always_sends_intensity ? 1 : 0);
   put(reg::invalid_flag, 1);
+  put_real(reg::invalid_value, options_.encoding.invalid);
+  put_real(reg::offset, options_.encoding.offset);
   put_real(reg::exposure_time, 10'000);
   put_real(reg::focal_length, static_cast<double>(camera.fx));
-  put_real(reg::principal_point_u, static_cast<double>(camera.cx));
-  put_real(reg::principal_point_v, static_cast<double>(camera.cy));
   put_real(reg::baseline, options_.encoding.baseline);
   refresh();
 }
@@ -158,14 +171,21 @@ DepthEncoding SimulatedCamera::encoding() const {
 /// Brings the registers up to date that follow from others.
 void SimulatedCamera::refresh() {
   const std::uint64_t region = region_;
-  put(reg::width, static_cast<std::uint32_t>(region >> 32U));
-  put(reg::height, static_cast<std::uint32_t>(region));
+  std::uint32_t shift = 48;
+  for (const std::uint32_t place : {reg::offset_x, reg::offset_y, reg::width, reg::height}) {
+    put(place, static_cast<std::uint16_t>(region >> shift));
+    shift -= 16;
+  }
+  const Camera& camera = frames_.front().camera;
+  put_real(reg::principal_point_u, static_cast<double>(camera.cx) - get(reg::offset_x));
+  put_real(reg::principal_point_v, static_cast<double>(camera.cy) - get(reg::offset_y));
   const DepthEncoding now = encoding();
   put_real(reg::scale, coordinate_scale(now));
-  put(reg::distance_unit, now.disparity ? 1 : 0);
-  const std::uint32_t pixels = get(reg::width) * get(reg::height);
-  const std::uint32_t confidence = get(reg::component_enable + 4) != 0 ? pixels : 0;
-  put(reg::payload_size, pixels * static_cast<std::uint32_t>(bytes_per_pixel(now.format)) + confidence);
+  put(reg::distance_unit, sends_disparities(now) ? 1 : 0);
+  std::size_t bytes = bytes_per_pixel(now.format);
+  if (sends(SimulatedComponent::confidence)) bytes += bytes_per_pixel(PixelFormat::confidence8);
+  if (sends(SimulatedComponent::intensity)) bytes += bytes_per_pixel(PixelFormat::mono16);
+  put(reg::payload_size, get(reg::width) * get(reg::height) * static_cast<std::uint32_t>(bytes));
 }
 
 void SimulatedCamera::work() {
@@ -197,18 +217,26 @@ sockaddr_in SimulatedCamera::stream_target() const {
   return target;
 }
 
+/// The components that are on, intensity first, so that clients must look for depth; without multipart depth alone.
+std::vector<StreamPart> SimulatedCamera::parts_of(DepthFrame frame) const {
+  const SensorRegion sent = region();
+  const DepthEncoding now = encoding();
+  const bool multipart = (get(reg::stream_configuration) & reg::stream_multipart) != 0;
+  std::vector<StreamPart> parts;
+  if (multipart && sends(SimulatedComponent::intensity)) {
+    parts.push_back({StreamComponent::intensity, PixelFormat::mono16, sent, encode_intensity(frame, sent)});
+  }
+  parts.push_back({StreamComponent::range, now.format, sent, encode_depth(frame, sent, now)});
+  if (multipart && sends(SimulatedComponent::confidence)) {
+    parts.push_back({StreamComponent::confidence, PixelFormat::confidence8, sent,
+                     encode_confidence(frame, sent, options_.sure_up_to)});
+  }
+  return parts;
+}
+
 void SimulatedCamera::send_frame() {
   LoadedFrame& played = frames_[next_frame_++ % frames_.size()];
-  const auto width = static_cast<int>(get(reg::width));
-  const auto height = static_cast<int>(get(reg::height));
-  const DepthEncoding now = encoding();
-  std::vector<StreamPart> parts;
-  parts.push_back({now.format, width, height, false, encode_depth(played.frame(), width, height, now)});
-  const bool multipart = (get(reg::stream_configuration) & reg::stream_multipart) != 0;
-  if (multipart && get(reg::component_enable + 4) != 0) {
-    parts.push_back({PixelFormat::confidence8, width, height, true,
-                     encode_confidence(played.frame(), width, height, options_.sure_up_to)});
-  }
+  std::vector<StreamPart> parts = parts_of(played.frame());
   const std::int64_t exposed_ns = monotonic_ns() + options_.exposure_ns;
   while (monotonic_ns() < exposed_ns && !stop_) answer_controls(1);
   frame_id_ = frame_id_ == 0xFFFF ? std::uint16_t{1} : static_cast<std::uint16_t>(frame_id_ + 1);

@@ -15,6 +15,7 @@
 
 #include "core/status.hpp"
 #include "drivers/camera/depth_encoding.hpp"
+#include "drivers/camera/simulated_registers.hpp"
 #include "drivers/camera/stream_packets.hpp"
 #include "drivers/files/file_descriptor.hpp"
 #include "drivers/files/loaded_frame.hpp"
@@ -26,15 +27,16 @@ struct SimulatedCameraOptions {
   std::string address = "127.0.0.1";  ///< An IPv4 address of this machine.
   std::string serial = "SIM0001";     ///< Up to 15 characters.
   DepthEncoding encoding;
-  float sure_up_to = 1000.0F;    ///< Metres; confidences are 0 beyond.
-  double lost_packets = 0.0;     ///< Share of the stream's packets that are not sent.
-  bool answers_resend = true;    ///< Sends packets again when the client asks.
-  std::int64_t exposure_ns = 0;  ///< From the trigger to the first packet.
+  float sure_up_to = 1000.0F;           ///< Metres; confidences are 0 beyond.
+  double lost_packets = 0.0;            ///< Share of the stream's packets that are not sent.
+  bool answers_resend = true;           ///< Sends packets again when the client asks.
+  std::int64_t exposure_ns = 0;         ///< From the trigger to the first packet.
+  bool always_sends_intensity = false;  ///< The component Intensity cannot be switched off.
 };
 
 /// A GigE Vision 3D camera on the network that plays frames: it answers discovery, gives its own GenICam
 /// description with Scan3d nodes, obeys one client at a time, and streams depth in any of the formats that
-/// DepthEncoding knows, with confidences as a second part. Every trigger takes the next frame.
+/// DepthEncoding knows, with confidences and intensities as further parts. Every trigger takes the next frame.
 /// Aravis' fake camera could play frames too, but sends no multipart, sends lost packets never again, and
 /// looks for triggers at ticks of its clock only.
 class SimulatedCamera {
@@ -53,8 +55,8 @@ class SimulatedCamera {
   void set_deaf(bool deaf) { deaf_ = deaf; }
   /// From now on frames lack their second half, or are whole again.
   void set_truncated(bool truncated) { truncated_ = truncated; }
-  /// From now on frames are the upper left `width` x `height` pixels, as if somebody had changed the region.
-  void set_region(int width, int height);
+  /// From now on frames are these pixels alone, as if somebody had changed the region.
+  void set_region(const SensorRegion& region);
 
   [[nodiscard]] std::uint64_t frames_sent() const { return frames_sent_; }
   [[nodiscard]] std::uint64_t packets_lost() const { return packets_lost_; }
@@ -89,6 +91,9 @@ class SimulatedCamera {
   void send_test_packet();
   [[nodiscard]] sockaddr_in stream_target() const;
   [[nodiscard]] DepthEncoding encoding() const;
+  [[nodiscard]] SensorRegion region() const;
+  [[nodiscard]] bool sends(SimulatedComponent component) const;
+  [[nodiscard]] std::vector<StreamPart> parts_of(DepthFrame frame) const;
 
   [[nodiscard]] std::uint32_t get(std::uint32_t address) const;
   void put(std::uint32_t address, std::uint32_t value);

@@ -119,7 +119,9 @@ std::string simulated_camera_xml() {
   d.integer("OffsetX", reg::offset_x);
   d.integer("OffsetY", reg::offset_y);
   d.choice("ComponentSelector", reg::component_selector, read_write,
-           {{"Range", number(SimulatedComponent::range)}, {"Confidence", number(SimulatedComponent::confidence)}});
+           {{"Range", number(SimulatedComponent::range)},
+            {"Confidence", number(SimulatedComponent::confidence)},
+            {"Intensity", number(SimulatedComponent::intensity)}});
   d.flag("ComponentEnable", reg::component_enable, read_write, "ComponentSelectorRegister");
   d.choice("PixelFormat", reg::pixel_format, read_write,
            {{"Mono16", number(PixelFormat::mono16)},

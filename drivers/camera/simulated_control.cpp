@@ -70,13 +70,28 @@ bool same(const sockaddr_in& a, const sockaddr_in& b) {
 
 /// What a client may write; all else tells of the camera.
 bool is_writable(std::uint32_t address) {
-  constexpr std::array writable{reg::heartbeat_timeout,    reg::control_privilege,  reg::stream_port,
-                                reg::stream_packet_size,   reg::stream_address,     reg::stream_configuration,
-                                reg::pixel_format,         reg::acquisition,        reg::acquisition_mode,
-                                reg::trigger_mode,         reg::trigger_source,     reg::trigger_software,
-                                reg::trigger_selector,     reg::frame_period,       reg::output_mode,
-                                reg::coordinate_selector,  reg::component_selector, reg::component_enable,
-                                reg::component_enable + 4, reg::exposure_time,      reg::exposure_time + 4};
+  constexpr std::array writable{reg::heartbeat_timeout,
+                                reg::control_privilege,
+                                reg::stream_port,
+                                reg::stream_packet_size,
+                                reg::stream_address,
+                                reg::stream_configuration,
+                                reg::pixel_format,
+                                reg::acquisition,
+                                reg::acquisition_mode,
+                                reg::trigger_mode,
+                                reg::trigger_source,
+                                reg::trigger_software,
+                                reg::trigger_selector,
+                                reg::frame_period,
+                                reg::output_mode,
+                                reg::coordinate_selector,
+                                reg::component_selector,
+                                reg::component_enable,
+                                component_enable_register(SimulatedComponent::confidence),
+                                component_enable_register(SimulatedComponent::intensity),
+                                reg::exposure_time,
+                                reg::exposure_time + 4};
   // The packet delay, which this camera has no use for.
   constexpr std::uint32_t packet_delay = 0x0D08;
   return address == packet_delay || std::find(writable.begin(), writable.end(), address) != writable.end();
@@ -134,6 +149,9 @@ std::uint16_t SimulatedCamera::write_register(const sockaddr_in& client, std::ui
   if (!may_write(client)) return access_denied;
   if (address >= reg::end || address % 4 != 0) return invalid_address;
   if (!is_writable(address)) return write_protected;
+  if (options_.always_sends_intensity && address == component_enable_register(SimulatedComponent::intensity)) {
+    return write_protected;
+  }
   switch (address) {
     case reg::trigger_software:
       triggered_ = get(reg::acquisition) != 0;

@@ -71,8 +71,12 @@ inline constexpr std::uint32_t fire_test_packet = 1U << 31U;
 
 /// Values of output_mode, and of component_selector.
 enum class SimulatedOutputMode : std::uint8_t { calibrated_c = 0, calibrated_abc_grid = 1, disparity_c = 2 };
-enum class SimulatedComponent : std::uint8_t { range = 0, confidence = 1 };
-inline constexpr std::uint32_t simulated_component_count = 2;
+enum class SimulatedComponent : std::uint8_t { range = 0, confidence = 1, intensity = 2 };
+
+/// Where the register that switches a component on lies.
+[[nodiscard]] constexpr std::uint32_t component_enable_register(SimulatedComponent component) {
+  return simulated_register::component_enable + 4 * static_cast<std::uint32_t>(component);
+}
 
 /// The GenICam description of the simulated camera: standard features (SFNC) over the registers above.
 [[nodiscard]] std::string simulated_camera_xml();

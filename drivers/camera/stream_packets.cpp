@@ -15,8 +15,14 @@ enum class Content : std::uint8_t { leader = 1, trailer = 2, pixels = 3, part_of
 
 constexpr std::uint16_t payload_image = 0x0001;
 constexpr std::uint16_t payload_multipart = 0x000A;
+constexpr std::uint16_t part_two_dimensional_image = 0x0001;
 constexpr std::uint16_t part_three_dimensional_image = 0x0005;
 constexpr std::uint16_t part_confidence_map = 0x0009;
+
+std::uint16_t data_type(StreamComponent component) {
+  if (component == StreamComponent::confidence) return part_confidence_map;
+  return component == StreamComponent::range ? part_three_dimensional_image : part_two_dimensional_image;
+}
 
 }  // namespace
 
@@ -57,8 +63,14 @@ void put_extended_header(PacketWriter& writer, std::uint16_t frame, Content cont
   writer.put(index);
 }
 
+void put_region(PacketWriter& writer, const SensorRegion& region) {
+  for (const int number : {region.width, region.height, region.left, region.top}) {
+    writer.put(static_cast<std::uint32_t>(number));
+  }
+}
+
 void put_part_description(PacketWriter& writer, const StreamPart& part, std::uint16_t purpose) {
-  writer.put(part.confidence ? part_confidence_map : part_three_dimensional_image);
+  writer.put(data_type(part.component));
   writer.put(std::uint16_t{0});
   writer.put(static_cast<std::uint32_t>(part.bytes.size()));
   writer.put(static_cast<std::uint32_t>(part.format));
@@ -66,9 +78,8 @@ void put_part_description(PacketWriter& writer, const StreamPart& part, std::uin
   writer.put(std::uint32_t{0});
   writer.put(purpose);
   writer.put(std::uint16_t{0});
-  writer.put(static_cast<std::uint32_t>(part.width));
-  writer.put(static_cast<std::uint32_t>(part.height));
-  for (int i = 0; i < 4; ++i) writer.put(std::uint32_t{0});
+  put_region(writer, part.region);
+  for (int i = 0; i < 2; ++i) writer.put(std::uint32_t{0});
 }
 
 }  // namespace
@@ -106,13 +117,12 @@ void StreamFrame::make_image_packet(std::uint32_t index, PacketWriter& writer) c
     writer.put(payload_image);
     writer.put(timestamp_ns_);
     writer.put(static_cast<std::uint32_t>(parts_[0].format));
-    writer.put(static_cast<std::uint32_t>(parts_[0].width));
-    writer.put(static_cast<std::uint32_t>(parts_[0].height));
-    for (int i = 0; i < 3; ++i) writer.put(std::uint32_t{0});
+    put_region(writer, parts_[0].region);
+    writer.put(std::uint32_t{0});
   } else if (index == packet_count() - 1) {
     put_header(writer, id_, Content::trailer, index);
     writer.put(std::uint32_t{payload_image});
-    writer.put(static_cast<std::uint32_t>(parts_[0].height));
+    writer.put(static_cast<std::uint32_t>(parts_[0].region.height));
   } else {
     const Payload& payload = payloads_[index - 1];
     put_header(writer, id_, Content::pixels, index);

@@ -6,15 +6,18 @@
 #include <vector>
 
 #include "drivers/camera/depth_decoding.hpp"
+#include "drivers/camera/depth_encoding.hpp"
 
 namespace graspd {
 
+/// What the pixels of a part tell.
+enum class StreamComponent : std::uint8_t { range, confidence, intensity };
+
 /// One component of a frame on its way out of a simulated camera.
 struct StreamPart {
+  StreamComponent component = StreamComponent::range;
   PixelFormat format = PixelFormat::coordinate_c16;
-  int width = 0;
-  int height = 0;
-  bool confidence = false;
+  SensorRegion region;
   std::vector<std::byte> bytes;
 };
 

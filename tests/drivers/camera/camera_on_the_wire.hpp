@@ -37,7 +37,7 @@ inline std::vector<LoadedFrame> numbered_frames(std::size_t count) {
 }
 
 /// A simulated camera on the loopback and a source that is connected to it.
-class CameraOnTheWire : public testing::Test {
+class CameraOnTheWire : public ::testing::Test {
  protected:
   void SetUp() override {
     enter_private_network();

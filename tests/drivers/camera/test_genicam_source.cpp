@@ -1,12 +1,24 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "tests/drivers/camera/camera_on_the_wire.hpp"
 
 namespace graspd {
 namespace {
 
 using testing::HasSubstr;
+
+TEST(GenicamSource, PausesGrowToHalfAMinute) {
+  std::vector<std::int64_t> milliseconds;
+  for (std::int64_t pause_ns = 0; milliseconds.size() < 8;) {
+    pause_ns = longer_pause(pause_ns);
+    milliseconds.push_back(pause_ns / 1'000'000);
+  }
+  EXPECT_THAT(milliseconds, testing::ElementsAre(500, 1000, 2000, 4000, 8000, 16000, 30000, 30000));
+}
 
 class FormatOnTheWire : public CameraOnTheWire, public testing::WithParamInterface<PixelFormat> {};
 
@@ -29,6 +41,76 @@ INSTANTIATE_TEST_SUITE_P(All, FormatOnTheWire,
                                          PixelFormat::mono16),
                          [](const auto& one) { return std::string(pixel_format_name(one.param)); });
 
+/// How stored values are to be understood, besides their format.
+struct StoredValues {
+  PixelFormat format;
+  double offset;  ///< Millimetres.
+  double invalid;
+};
+
+class StoredOnTheWire : public CameraOnTheWire, public testing::WithParamInterface<StoredValues> {};
+
+TEST_P(StoredOnTheWire, EqualsTheFrameThatWasPlayed) {
+  simulated_.encoding.format = GetParam().format;
+  simulated_.encoding.offset = GetParam().offset;
+  simulated_.encoding.invalid = GetParam().invalid;
+  switch_on();
+  connect();
+  const Status grabbed = grab();
+  ASSERT_TRUE(grabbed.ok()) << grabbed.message();
+  expect_frame(0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, StoredOnTheWire,
+                         testing::Values(StoredValues{PixelFormat::coordinate_c16, 400.0, 65535.0},
+                                         StoredValues{PixelFormat::mono16, 400.0, 65535.0},
+                                         StoredValues{PixelFormat::coordinate_abc16, 300.0, 60000.0},
+                                         StoredValues{PixelFormat::coordinate_c32f, 0.0, -1.0},
+                                         StoredValues{PixelFormat::coordinate_abc32f, 0.0,
+                                                      std::numeric_limits<double>::quiet_NaN()}),
+                         [](const auto& one) { return std::string(pixel_format_name(one.param.format)); });
+
+class DisparityOnTheWire : public CameraOnTheWire, public testing::WithParamInterface<PixelFormat> {
+ protected:
+  /// Frames of depths that come out as they were when they are stored as disparities in between.
+  void see_what_disparities_can_tell() {
+    const double focal_baseline = static_cast<double>(frames_[0].camera.fx) * simulated_.encoding.baseline;
+    const auto back = [&](double disparity) { return static_cast<float>(focal_baseline / disparity); };
+    for (LoadedFrame& frame : frames_) {
+      for (float& z : frame.depth) {
+        if (z == 0.0F) continue;
+        z = back(std::round(focal_baseline / static_cast<double>(z) * 64) / 64);
+        if (GetParam() != PixelFormat::coordinate_c32f) continue;
+        for (float again = 0.0F; again != z;) {
+          again = z;
+          z = back(static_cast<double>(static_cast<float>(focal_baseline / static_cast<double>(z))));
+        }
+      }
+    }
+  }
+};
+
+TEST_P(DisparityOnTheWire, EqualsTheFrameThatWasPlayed) {
+  simulated_.encoding.format = GetParam();
+  simulated_.encoding.disparity = true;
+  // A float that holds disparity and offset together holds less of the disparity.
+  if (GetParam() != PixelFormat::coordinate_c32f) simulated_.encoding.offset = -8.0;
+  see_what_disparities_can_tell();
+  ASSERT_NE(frames_[0].depth, frames_[1].depth);
+  switch_on();
+  connect();
+  for (std::size_t n = 0; n < 2; ++n) {
+    const Status grabbed = grab();
+    ASSERT_TRUE(grabbed.ok()) << grabbed.message();
+    expect_frame(n);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DisparityOnTheWire,
+                         testing::Values(PixelFormat::coordinate_c16, PixelFormat::coordinate_c32f,
+                                         PixelFormat::mono16),
+                         [](const auto& one) { return std::string(pixel_format_name(one.param)); });
+
 TEST_F(CameraOnTheWire, SendsDisparities) {
   simulated_.encoding.disparity = true;
   for (const PixelFormat format : {PixelFormat::coordinate_c16, PixelFormat::coordinate_c32f}) {
@@ -38,7 +120,7 @@ TEST_F(CameraOnTheWire, SendsDisparities) {
     const Status grabbed = grab();
     ASSERT_TRUE(grabbed.ok()) << grabbed.message();
     // What decoding makes of the very bytes that the camera stores; disparities cannot hold every depth.
-    const std::vector<std::byte> bytes = encode_depth(frames_[0].frame(), 96, 64, simulated_.encoding);
+    const std::vector<std::byte> bytes = encode_depth(frames_[0].frame(), {0, 0, 96, 64}, simulated_.encoding);
     DepthDecoding decoding;
     decoding.format = format;
     decoding.scale = coordinate_scale(simulated_.encoding);
@@ -71,6 +153,23 @@ TEST_F(CameraOnTheWire, UsesConfidencesThatComeAsASecondPart) {
     }
     EXPECT_EQ(cleared > 1000, use);
     source_.reset();
+  }
+}
+
+TEST_F(CameraOnTheWire, FindsDepthAmongIntensitiesThatCannotBeSwitchedOff) {
+  simulated_.always_sends_intensity = true;
+  for (const PixelFormat format : {PixelFormat::coordinate_c16, PixelFormat::mono16}) {
+    simulated_.encoding.format = format;
+    switch_on();
+    for (const bool confidence : {true, false}) {
+      options_.confidence = confidence;
+      connect();
+      const Status grabbed = grab();
+      ASSERT_TRUE(grabbed.ok()) << grabbed.message();
+      expect_frame(confidence ? 0 : 1);
+      source_.reset();
+    }
+    camera_.reset();
   }
 }
 
