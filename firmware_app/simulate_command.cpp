@@ -12,6 +12,7 @@
 #include "drivers/files/load_frame.hpp"
 #include "drivers/system/signals.hpp"
 #include "firmware_app/commands.hpp"
+#include "firmware_app/simulated_piles.hpp"
 
 namespace graspd {
 namespace {
@@ -19,8 +20,13 @@ namespace {
 constexpr std::array formats{PixelFormat::coordinate_c16, PixelFormat::coordinate_c32f, PixelFormat::coordinate_abc16,
                              PixelFormat::coordinate_abc32f, PixelFormat::mono16};
 
+constexpr std::array<std::pair<const char*, SensorStrain>, 3> strains{
+    {{"clean", SensorStrain::clean}, {"medium", SensorStrain::medium}, {"hard", SensorStrain::hard}}};
+
 struct SimulateOptions {
   std::vector<std::string> frames;
+  PileOptions piles;
+  std::string strain = "medium";
   std::string format = "Coord3D_C16";
   SimulatedCameraOptions camera;
   double exposure = 0.0;
@@ -49,12 +55,26 @@ Result<std::vector<LoadedFrame>> load_frames(const std::vector<std::string>& pat
   return frames;
 }
 
+/// Recorded frames, or scenes of parts; `step` is that of their depths.
+Result<std::vector<LoadedFrame>> frames_to_play(const SimulateOptions& options, double& step) {
+  if (!options.frames.empty()) return load_frames(options.frames, step);
+  if (options.piles.parts.empty()) {
+    return Status(StatusCode::usage, "simulate needs FRAMES or --parts; see graspd simulate --help");
+  }
+  PileOptions piles = options.piles;
+  piles.step = step;
+  for (const auto& [name, strain] : strains) {
+    if (options.strain == name) piles.strain = strain;
+  }
+  return simulate_piles(piles);
+}
+
 Status simulate(SimulateOptions options) {
   for (const PixelFormat format : formats) {
     if (options.format == pixel_format_name(format)) options.camera.encoding.format = format;
   }
   double step = options.camera.encoding.step;
-  Result<std::vector<LoadedFrame>> frames = load_frames(options.frames, step);
+  Result<std::vector<LoadedFrame>> frames = frames_to_play(options, step);
   if (!frames.ok()) return frames.status();
   options.camera.encoding.step = step;
   options.camera.answers_resend = !options.no_resend;
@@ -76,12 +96,36 @@ Status simulate(SimulateOptions options) {
   return {};
 }
 
+void add_pile_options(CLI::App& command, SimulateOptions& options) {
+  PileOptions& piles = options.piles;
+  CLI::Option* parts =
+      command.add_option("--parts", piles.parts,
+                         "Instead of recorded frames: parts that lie in a bin, as meshes (PLY, STL, OBJ; millimetres), "
+                         "part files (.toml) or banks (.bank)");
+  parts->expected(-1);
+  const auto add = [&](const char* name, auto& value, const char* text) {
+    return command.add_option(name, value, text)->needs(parts)->capture_default_str();
+  };
+  add("--scenes", piles.scenes, "So many scenes, each another pile")->check(CLI::Range(1, 1000));
+  add("--instances", piles.instances, "Parts in each scene")->check(CLI::Range(1, 200));
+  add("--distance", piles.distance, "Millimetres from the sensor to the bin's floor")->check(CLI::Range(100.0, 5000.0));
+  add("--seed", piles.seed, "The same number makes the same scenes, another one others");
+  std::vector<std::string> names;
+  for (const auto& [name, strain] : strains) names.emplace_back(name);
+  add("--strain", options.strain,
+      "How hard it is for the sensor: a tenth of the surface is missing, a third, or a half")
+      ->check(CLI::IsMember(names));
+  add("--save", piles.save, "New scene folder in BOP's form: the frames, the empty bin, and where the parts truly are");
+}
+
 }  // namespace
 
 void add_simulate_command(CLI::App& command_line, Status& outcome) {
   auto options = std::make_shared<SimulateOptions>();
   CLI::App* command = command_line.add_subcommand("simulate", "Be a 3D camera on the network that plays frames");
-  command->add_option("FRAMES", options->frames, "Scene folders in BOP's form, or frames of one camera")->required();
+  add_pile_options(*command, *options);
+  command->add_option("FRAMES", options->frames, "Scene folders in BOP's form, or frames of one camera")
+      ->excludes("--parts");
   std::vector<std::string> names;
   for (const PixelFormat format : formats) names.emplace_back(pixel_format_name(format));
   command->add_option("--format", options->format, "PixelFormat; a client may choose another")
@@ -105,8 +149,13 @@ void add_simulate_command(CLI::App& command_line, Status& outcome) {
       "Answers to GigE Vision clients as a camera with Scan3d nodes would: graspd itself, Aravis'\n"
       "tools, and others. Each trigger takes the next frame, and the first again after the last.\n"
       "\n"
-      "Example, for a configuration with source = \"genicam\" and device = \"127.0.0.1\":\n"
-      "  graspd simulate frames/000001 --format Coord3D_C32f");
+      "With --parts it sees scenes that are rendered from the parts' meshes with the shadows, gaps and\n"
+      "noise of a structured-light sensor. --save keeps the frames; its empty/000000.tiff is the\n"
+      "camera.empty_bin of all of them.\n"
+      "\n"
+      "Examples, for a configuration with source = \"genicam\" and device = \"127.0.0.1\":\n"
+      "  graspd simulate frames/000001 --format Coord3D_C32f\n"
+      "  graspd simulate --parts bushing.toml --scenes 20 --seed 7 --save simulated/000001");
   command->callback([options, &outcome] { outcome = simulate(*options); });
 }
 

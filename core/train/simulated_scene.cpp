@@ -113,7 +113,9 @@ SimulatedScene simulate_scene(std::span<const SimulatedPart> parts, const SceneR
   const PileBin bin = fitting_bin(parts, recipe);
   const std::vector<PiledPart> pile = pile_parts(shapes, recipe.instances, bin, recipe.seed);
   Chance chance(mixed(recipe.seed));
-  const RigidTransform camera_from_bin = camera_above(recipe, chance);
+  Chance shared(mixed(recipe.setting_seed.value_or(0)));
+  Chance& setting = recipe.setting_seed ? shared : chance;
+  const RigidTransform camera_from_bin = camera_above(recipe, setting);
   const Mesh walls = bin_mesh(bin, 0.5F * shapes.front().diameter);
 
   SimulatedScene scene;
@@ -123,7 +125,7 @@ SimulatedScene simulate_scene(std::span<const SimulatedPart> parts, const SceneR
   scene.empty_depth.resize(scene.camera.pixel_count());
   // Recorded once, when the bin was empty: another frame, in better conditions.
   measure_scene(meshes, scene.camera, structured_light(SensorStrain::clean, baseline_share * recipe.sensor_distance),
-                chance.word(), scene.empty_depth);
+                setting.word(), scene.empty_depth);
   for (const PiledPart& piled : pile) {
     scene.instances.push_back({piled.shape, camera_from_bin * piled.bin_from_part, 0.0F});
     meshes.push_back({parts[piled.shape].mesh.view(), scene.instances.back().camera_from_part});

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct SceneRecipe {
   int maximum_height = 960;
   float layers = 1.5F;  ///< How deep the parts lie, on average.
   std::uint64_t seed = 1;
+  /// Where the sensor stands, and the frame of the empty bin: for several scenes that one sensor sees. Else by `seed`.
+  std::optional<std::uint64_t> setting_seed;
 };
 
 /// An instance that is known to be there.

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "drivers/files/atomic_file.hpp"
-#include "drivers/files/bop_dataset.hpp"
 #include "drivers/files/json_file.hpp"
 
 namespace graspd {
@@ -110,6 +109,23 @@ Result<fs::path> write_bop_empty_bin(const fs::path& scene_folder, const DepthFr
     return written;
   }
   return image;
+}
+
+Status write_bop_ground_truth(const fs::path& scene_folder, std::span<const BopInstance> instances) {
+  nlohmann::json truth = nlohmann::json::object();
+  nlohmann::json visibility = nlohmann::json::object();
+  for (const BopInstance& instance : instances) {
+    const RigidTransform& pose = instance.camera_from_part;
+    nlohmann::json rotation = nlohmann::json::array();
+    nlohmann::json translation = nlohmann::json::array();
+    for (int i = 0; i < 9; ++i) rotation.push_back(pose.rotation(i / 3, i % 3));
+    for (int i = 0; i < 3; ++i) translation.push_back(static_cast<double>(pose.translation[i]) * 1e3);
+    const std::string image = std::to_string(instance.im_id);
+    truth[image].push_back({{"obj_id", instance.obj_id}, {"cam_R_m2c", rotation}, {"cam_t_m2c", translation}});
+    visibility[image].push_back({{"visib_fract", instance.visible_share}});
+  }
+  if (Status written = write_file(scene_folder / "scene_gt.json", truth.dump(1) + "\n"); !written.ok()) return written;
+  return write_file(scene_folder / "scene_gt_info.json", visibility.dump(1) + "\n");
 }
 
 }  // namespace graspd

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include "core/geometry/depth_frame.hpp"
 #include "core/status.hpp"
+#include "drivers/files/bop_dataset.hpp"
 
 namespace graspd {
 
@@ -21,5 +23,10 @@ namespace graspd {
 /// Fails with cannot_write.
 [[nodiscard]] Result<std::filesystem::path> write_bop_empty_bin(const std::filesystem::path& scene_folder,
                                                                 const DepthFrame& frame);
+
+/// Writes what is true of the scene's images: scene_gt.json, and the visible shares in scene_gt_info.json. Fails with
+/// cannot_write.
+[[nodiscard]] Status write_bop_ground_truth(const std::filesystem::path& scene_folder,
+                                            std::span<const BopInstance> instances);
 
 }  // namespace graspd

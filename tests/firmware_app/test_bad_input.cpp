@@ -68,7 +68,13 @@ TEST_F(BadInput, Cameras) {
   expect_refusal({"camera", "grab"}, 2, {"--output"});
   expect_refusal({"camera", "show", "--device", "a", "--config", "b"}, 2, {"--device", "--config"});
   expect_refusal({"camera", "show", "--config", folder_.path("none.toml")}, 3, {"none.toml", "No such file"});
-  expect_refusal({"simulate"}, 2, {"FRAMES"});
+  expect_refusal({"simulate"}, 2, {"FRAMES", "--parts"});
+  expect_refusal({"simulate", scene_.string(), "--parts", bank_}, 2, {"FRAMES", "--parts"});
+  expect_refusal({"simulate", scene_.string(), "--scenes", "3"}, 2, {"--scenes", "--parts"});
+  expect_refusal({"simulate", "--parts", bank_, "--strain", "much"}, 2, {"--strain", "medium"});
+  expect_refusal({"simulate", "--parts", folder_.path("none.ply")}, 4, {"none.ply"});
+  expect_refusal({"simulate", "--parts", folder_.path("none.toml")}, 3, {"none.toml"});
+  expect_refusal({"simulate", "--parts", folder_.path("none.bank")}, 5, {"none.bank"});
   expect_refusal({"simulate", folder_.path("none")}, 4, {"none", "No such file"});
   expect_refusal({"simulate", bank_}, 4, {"bar.bank", "not a kind of frame"});
   expect_refusal({"simulate", scene_.string(), "--format", "RGB8"}, 2, {"--format", "Coord3D_C32f"});

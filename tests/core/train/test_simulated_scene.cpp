@@ -101,6 +101,19 @@ TEST(SimulatedScene, TheSameRecipeGivesTheSameSceneAndAnotherSeedAnother) {
   EXPECT_NE(first.depth, simulate_scene(parts, recipe).depth);
 }
 
+TEST(SimulatedScene, ScenesOfOneSettingDifferInNothingButTheParts) {
+  const auto parts = brackets();
+  SceneRecipe recipe = small_recipe();
+  recipe.setting_seed = 5;
+  const SimulatedScene first = simulate_scene(parts, recipe);
+  recipe.seed = 2;
+  const SimulatedScene second = simulate_scene(parts, recipe);
+  EXPECT_EQ(first.empty_depth, second.empty_depth);
+  EXPECT_NE(first.depth, second.depth);
+  recipe.setting_seed = 6;
+  EXPECT_NE(simulate_scene(parts, recipe).empty_depth, second.empty_depth);
+}
+
 TEST(SimulatedScene, TheEmptyBinIsTheSameBin) {
   const auto parts = brackets();
   SimulatedScene scene = simulate_scene(parts, small_recipe());
