@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
+#include <new>
 
 // What the C library calls its allocator when a program brings another.
 extern "C" {
@@ -31,16 +32,28 @@ struct CallStack {
 
 std::atomic<bool> armed{false};
 std::atomic<std::size_t> allocations{0};
+std::atomic<std::size_t> allocations_by_new{0};
+thread_local std::size_t own_allocations = 0;
 std::array<CallStack, 8> stacks{};
 thread_local bool inside_recorder = false;
 
 void record() {
   if (!armed.load(std::memory_order_relaxed) || inside_recorder) return;
+  ++own_allocations;
   const std::size_t index = allocations.fetch_add(1);
   if (index >= stacks.size()) return;
   inside_recorder = true;
   stacks[index].depth = backtrace(stacks[index].frames.data(), static_cast<int>(stacks[index].frames.size()));
   inside_recorder = false;
+}
+
+void record_new() {
+  if (armed.load(std::memory_order_relaxed) && !inside_recorder) ++allocations_by_new;
+}
+
+void* made_or_thrown(void* block) {
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
 }
 
 std::string name_of(void* address) {
@@ -115,6 +128,22 @@ void free(void* block) { __libc_free(block); }
 
 }  // extern "C"
 
+// The other forms of new end in these.
+void* operator new(std::size_t size) {
+  record_new();
+  return made_or_thrown(std::malloc(size == 0 ? 1 : size));
+}
+
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  record_new();
+  return made_or_thrown(memalign(static_cast<std::size_t>(alignment), size == 0 ? 1 : size));
+}
+
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
+
 namespace graspd::testing {
 
 AllocationGuard::AllocationGuard() {
@@ -122,6 +151,8 @@ AllocationGuard::AllocationGuard() {
   std::array<void*, 2> unused{};
   static_cast<void>(backtrace(unused.data(), static_cast<int>(unused.size())));
   allocations = 0;
+  allocations_by_new = 0;
+  own_allocations = 0;
   armed = true;
 }
 
@@ -131,6 +162,10 @@ std::size_t AllocationGuard::stop() {
   armed = false;
   return allocations;
 }
+
+std::size_t AllocationGuard::by_new() const { return allocations_by_new; }
+
+std::size_t AllocationGuard::on_this_thread() const { return own_allocations; }
 
 std::string AllocationGuard::report() const {
   std::string text = std::to_string(allocations.load()) + " allocations\n";

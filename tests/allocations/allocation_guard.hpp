@@ -23,6 +23,11 @@ class AllocationGuard {
   /// Stops counting and returns how many allocations there were.
   std::size_t stop();
 
+  /// How many of them came through operator new: those of code in C++, which libraries in C never call. After stop.
+  [[nodiscard]] std::size_t by_new() const;
+  /// How many of them the calling thread made. After stop.
+  [[nodiscard]] std::size_t on_this_thread() const;
+
   /// The call stacks of the first allocations, outermost last, for a person. Call after stop.
   [[nodiscard]] std::string report() const;
 };

@@ -77,6 +77,24 @@ TEST(AllocationGuard, CountsOperatorNew) {
             1U);
 }
 
+TEST(AllocationGuard, TellsNewFromTheMallocFamilyAndItsThreadFromOthers) {
+  AllocationGuard guard;
+  for (int i = 0; i < 3; ++i) {
+    void* block = std::malloc(10);
+    keep(block);
+    std::free(block);
+  }
+  keep(std::make_unique<int>(3).get());
+  struct alignas(64) Wide {
+    char bytes[64];
+  };
+  keep(std::make_unique<Wide[]>(2).get());
+  EXPECT_EQ(guard.stop(), 5U);
+  EXPECT_EQ(guard.by_new(), 2U);
+  EXPECT_EQ(guard.on_this_thread(), 5U);
+  std::thread([&guard] { EXPECT_EQ(guard.on_this_thread(), 0U); }).join();
+}
+
 TEST(AllocationGuard, CountsWhatLibrariesAllocate) {
   EXPECT_EQ(allocations_in([] {
               const Eigen::MatrixXf matrix = Eigen::MatrixXf::Ones(20, 20);
