@@ -72,6 +72,39 @@ TEST(Record, ReplaysToTheSameBytes) {
   EXPECT_THAT(validated.output, HasSubstr("2 instances reported in 1 images"));
 }
 
+TEST(Record, KeepsFailuresByItself) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_file(folder.path("bar.bank"), shared_angle_bar_bank()).ok());
+  const std::filesystem::path scene = write_bop_scene(folder.path("data"), angle_bar_scene());
+  const std::string configuration = folder.write(
+      "graspd.toml", "banks = [\"bar.bank\"]\n[camera]\nsource = \"recorded\"\npath = \"" + scene.string() +
+                         "\"\n[modbus]\naddress = \"127.0.0.1\"\nport = 0\n[memory]\nlock = false\n" +
+                         "[record]\nfolder = \"records\"\n");
+  GraspdProcess daemon(folder, {"run", "--config", configuration});
+  const std::optional<std::string> port = daemon.wait_for(" port=", patience);
+  ASSERT_TRUE(port) << daemon.errors();
+  Result<ModbusClient> plc =
+      ModbusClient::connect("127.0.0.1", static_cast<std::uint16_t>(std::stoi(*port)), BlockFormat{});
+  ASSERT_TRUE(plc.ok()) << plc.status().message();
+  const auto ask = [&plc](std::uint16_t id, std::uint16_t minimum_score) {
+    ClientRequest request;
+    request.request_id = id;
+    request.minimum_score = minimum_score;
+    const Result<ResultBlock> block = plc.value().request_pick(request, patience);
+    EXPECT_TRUE(block.ok()) << block.status().message();
+    return block.ok() ? block.value().code : ResultCode::internal;
+  };
+  EXPECT_EQ(ask(1, 0), ResultCode::ok);
+  EXPECT_EQ(ask(2, 10000), ResultCode::no_match);
+  ASSERT_TRUE(daemon.wait_for("000001 request=2", patience)) << daemon.errors();
+  EXPECT_EQ(ask(3, 0), ResultCode::ok);
+  daemon.terminate();
+  EXPECT_EQ(daemon.wait(), 0) << daemon.errors();
+  EXPECT_FALSE(std::filesystem::exists(folder.path("records/recorded/000002"))) << "of three requests one failed";
+  const nlohmann::json record = nlohmann::json::parse(text_of(folder.path("records/recorded/000001/record.json")));
+  EXPECT_EQ(record["result"]["code"], "no_match");
+}
+
 TEST(Record, KeepsItsQuota) {
   const TemporaryFolder folder;
   RecordSettings settings;
