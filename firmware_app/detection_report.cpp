@@ -1,11 +1,11 @@
 #include "firmware_app/detection_report.hpp"
 
 #include <array>
-#include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "firmware_app/append_text.hpp"
 #include "firmware_app/pick_report.hpp"
 
 namespace graspd {
@@ -18,15 +18,6 @@ constexpr std::array<std::pair<std::uint32_t, const char*>, 4> flag_list{{{flag_
                                                                           {flag_hypotheses_cut, "hypotheses_cut"},
                                                                           {flag_instances_cut, "instances_cut"},
                                                                           {flag_deadline, "deadline"}}};
-
-[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
-  char line[400];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  text += line;
-}
 
 double wide(float value) { return static_cast<double>(value); }
 

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 #include <functional>
 #include <set>
 
 #include "core/evaluate/summary.hpp"
+#include "firmware_app/append_text.hpp"
 #include "firmware_app/explanation.hpp"
 
 namespace graspd {
@@ -20,15 +20,6 @@ constexpr std::array<const char*, visibility_class_count> visibility_names{"< 0.
 constexpr std::array<Rejection, rejection_count - 1> test_order{
     Rejection::weak,     Rejection::overlap, Rejection::boundary,  Rejection::edge,        Rejection::below_plane,
     Rejection::floating, Rejection::score,   Rejection::duplicate, Rejection::intersecting};
-
-[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
-  char line[400];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  text += line;
-}
 
 double wide(float value) { return static_cast<double>(value); }
 
