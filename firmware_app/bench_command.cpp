@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,21 +39,9 @@ Status add_frames(const std::string& path, const FrameFileOptions& files, std::v
   options.path = path;
   options.files = files;
   options.maximum_bytes = std::size_t{2} << 30U;
-  const Result<std::unique_ptr<RecordedSource>> opened = RecordedSource::open(options);
-  if (!opened.ok()) return opened.status();
-  RecordedSource& source = *opened.value();
-  const FrameLimits limits = source.limits();
-  std::vector<float> storage(static_cast<std::size_t>(limits.maximum_width) *
-                             static_cast<std::size_t>(limits.maximum_height));
-  for (std::size_t i = 0; i < source.frame_count(); ++i) {
-    DepthFrame frame;
-    if (Status grabbed = source.grab(storage, frame); !grabbed.ok()) return grabbed;
-    const DepthFrame empty = source.empty_bin();
-    frames.push_back({frame.camera,
-                      {frame.depth.begin(), frame.depth.end()},
-                      {empty.depth.begin(), empty.depth.end()},
-                      std::string(source.frame_name())});
-  }
+  Result<std::vector<LoadedFrame>> loaded = load_recorded_frames(options);
+  if (!loaded.ok()) return loaded.status();
+  std::move(loaded.value().begin(), loaded.value().end(), std::back_inserter(frames));
   return {};
 }
 
@@ -127,8 +117,8 @@ void add_bench_command(CLI::App& command_line, Status& outcome) {
   command->add_option("--json", options->json, "Write what was measured as JSON into this file; - for stdout");
   command->add_option("--picture", options->picture, "Write charts of it into this PNG");
   command->footer(
-      "Prints the time of every stage (median, 99th percentile and worst over all detections, exact), the\n"
-      "work that was done, and the memory by owner. Then how the time grows:\n"
+      "Prints the time of every stage (median, 99th and 99.9th percentile and worst over all detections, exact),\n"
+      "the work that was done, and the memory by owner. Then how the time grows:\n"
       "  scene points      in windows that hold a share of them, at one density of points\n"
       "  model references  with a share of the points of every view that vote\n"
       "  views             with the first views of every bank\n"

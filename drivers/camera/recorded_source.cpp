@@ -88,11 +88,17 @@ Status collect(const RecordedSourceOptions& options, FrameCollector& collector) 
 
 }  // namespace
 
-Result<std::unique_ptr<RecordedSource>> RecordedSource::open(const RecordedSourceOptions& options) {
+Result<std::vector<LoadedFrame>> load_recorded_frames(const RecordedSourceOptions& options) {
   FrameCollector collector(options);
   const Status status = collect(options, collector);
   if (!status.ok()) return status;
-  return std::unique_ptr<RecordedSource>(new RecordedSource(std::move(collector.frames)));
+  return std::move(collector.frames);
+}
+
+Result<std::unique_ptr<RecordedSource>> RecordedSource::open(const RecordedSourceOptions& options) {
+  Result<std::vector<LoadedFrame>> frames = load_recorded_frames(options);
+  if (!frames.ok()) return frames.status();
+  return std::unique_ptr<RecordedSource>(new RecordedSource(std::move(frames).value()));
 }
 
 RecordedSource::RecordedSource(std::vector<LoadedFrame> frames) : frames_(std::move(frames)) {

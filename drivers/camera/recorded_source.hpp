@@ -20,11 +20,14 @@ struct RecordedSourceOptions {
   std::size_t maximum_bytes = std::size_t{256} << 20U;  ///< For all frames together.
 };
 
+/// Reads all frames that the options name. Fails as load_frame and load_bop_frame do, with bad_file when there are
+/// none, and with memory_limit when they need more than maximum_bytes.
+[[nodiscard]] Result<std::vector<LoadedFrame>> load_recorded_frames(const RecordedSourceOptions& options);
+
 /// Frames from files, over and over. All are read when it opens, so that grabbing one is a copy.
 class RecordedSource final : public FrameSource {
  public:
-  /// Fails as load_frame and load_bop_frame do, with bad_file when there is nothing to play, and with
-  /// memory_limit when the frames need more than maximum_bytes.
+  /// Fails as load_recorded_frames does.
   [[nodiscard]] static Result<std::unique_ptr<RecordedSource>> open(const RecordedSourceOptions& options);
 
   [[nodiscard]] Status grab(std::span<float> storage, DepthFrame& frame) override;
