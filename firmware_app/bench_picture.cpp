@@ -36,7 +36,7 @@ std::vector<ChartBar> bars_of(const BenchRun& run) {
 std::vector<ChartBar> bars_of(const MemoryPlan& memory) {
   std::vector<ChartBar> bars;
   for (const MemoryPlan::Row& row : memory.rows) {
-    bars.push_back({row.name, distinct_colour(1), static_cast<double>(row.bytes) / (1024.0 * 1024.0), 0, 0});
+    bars.push_back({row.name, distinct_colour(1), mebibytes(row.bytes), 0, 0});
   }
   return bars;
 }

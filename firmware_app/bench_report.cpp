@@ -1,24 +1,15 @@
 #include "firmware_app/bench_report.hpp"
 
-#include <cstdarg>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <utility>
+
+#include "firmware_app/append_text.hpp"
 
 namespace graspd {
 namespace {
 
 /// Keeps the keys in the order in which they are written.
 using Json = nlohmann::ordered_json;
-
-[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
-  char line[300];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  text += line;
-}
 
 double milliseconds(double seconds) { return seconds * 1e3; }
 
@@ -38,12 +29,13 @@ void append_input(std::string& text, const BenchInput& input, const Bench& bench
 }
 
 void append_spread(std::string& text, const char* name, const TimeSpread& spread, double whole) {
-  append(text, "%-18s %10.2f %10.2f %10.2f %9.1f%%\n", name, milliseconds(spread.median),
-         milliseconds(spread.percentile_99), milliseconds(spread.worst), 100.0 * spread.median / whole);
+  append(text, "%-18s %10.2f %10.2f %10.2f %10.2f %9.1f%%\n", name, milliseconds(spread.median),
+         milliseconds(spread.percentile_99), milliseconds(spread.percentile_99_9), milliseconds(spread.worst),
+         100.0 * spread.median / whole);
 }
 
 void append_times(std::string& text, const BenchRun& run) {
-  append(text, "\n%-18s %10s %10s %10s %10s\n", "time (ms)", "median", "99%", "worst", "share");
+  append(text, "\n%-18s %10s %10s %10s %10s %10s\n", "time (ms)", "median", "99%", "99.9%", "worst", "share");
   for (std::size_t i = 0; i < stage_count; ++i) {
     append_spread(text, stage_name(static_cast<Stage>(i)), run.stages[i], run.whole.median);
   }
@@ -88,7 +80,10 @@ void append_deadlines(std::string& text, const Bench& bench) {
 }
 
 Json spread_as_json(const TimeSpread& spread) {
-  return {{"median", spread.median}, {"percentile_99", spread.percentile_99}, {"worst", spread.worst}};
+  return {{"median", spread.median},
+          {"percentile_99", spread.percentile_99},
+          {"percentile_99_9", spread.percentile_99_9},
+          {"worst", spread.worst}};
 }
 
 Json run_as_json(const BenchRun& run) {
@@ -116,7 +111,7 @@ std::string bench_as_text(const BenchInput& input, const Bench& bench) {
   append_times(text, bench.run);
   append_counts(text, bench.run);
   text += "\nmemory\n" + memory_rows(bench.memory);
-  append(text, "%-32s %10.2f MiB\n", "in memory, measured", static_cast<double>(bench.resident) / (1024.0 * 1024.0));
+  append(text, "%-32s %10.2f MiB\n", "in memory, measured", mebibytes(bench.resident));
   if (!bench.growth.empty()) text += "\nMedians in ms:\n";
   for (const Growth& growth : bench.growth) append_growth(text, growth);
   if (!bench.deadlines.empty()) append_deadlines(text, bench);

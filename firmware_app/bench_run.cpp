@@ -62,9 +62,9 @@ TimeSpread spread_over(const std::vector<Sample>& samples, const Time& time) {
 
 TimeSpread spread_of(std::vector<double> seconds) {
   std::sort(seconds.begin(), seconds.end());
-  // The smallest value that `hundredths` of all do not exceed.
-  const auto rank = [&](std::size_t hundredths) { return seconds[(seconds.size() * hundredths + 99) / 100 - 1]; };
-  return {rank(50), rank(99), seconds.back()};
+  // The smallest value that so many thousandths of all do not exceed.
+  const auto rank = [&](std::size_t thousandths) { return seconds[(seconds.size() * thousandths + 999) / 1000 - 1]; };
+  return {rank(500), rank(990), rank(999), seconds.back()};
 }
 
 const char* bench_count_name(BenchCount count) {

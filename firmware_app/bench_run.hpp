@@ -15,7 +15,8 @@ namespace graspd {
 /// Exact order statistics of times in seconds: each is one that was measured (nearest rank).
 struct TimeSpread {
   double median = 0;
-  double percentile_99 = 0;  ///< 99 of 100 took no longer.
+  double percentile_99 = 0;    ///< 99 of 100 took no longer,
+  double percentile_99_9 = 0;  ///< 999 of 1000.
   double worst = 0;
 };
 

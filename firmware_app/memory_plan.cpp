@@ -11,8 +11,6 @@
 namespace graspd {
 namespace {
 
-double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1024.0 * 1024.0); }
-
 /// Drawing works on the C library's heap, after the answer is out: the picture (enlarged up to twice),
 /// its coloured depth, a depth image for occlusion and the PNG.
 constexpr std::size_t picture_bytes_per_pixel = 40;

@@ -70,6 +70,8 @@ inline constexpr std::size_t thread_stack_bytes = std::size_t{2} << 20U;
 /// Fails with memory_limit when the plan exceeds the configured budget: says by how much and what to do.
 [[nodiscard]] Status check_budget(const Configuration& configuration, const MemoryPlan& plan);
 
+[[nodiscard]] constexpr double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1024.0 * 1024.0); }
+
 /// The plan as a table for a person: its rows and their sum,
 [[nodiscard]] std::string memory_rows(const MemoryPlan& plan);
 /// and what is allowed.
