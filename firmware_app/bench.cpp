@@ -61,7 +61,7 @@ Result<Bench> run_bench(BenchInput& input, bool curves, std::size_t baseline, co
   const Result<BenchRun> first = bed.run(first_frame, 0, 1, "first detection");
   if (!first.ok()) return first.status();
   bench.first_seconds = first.value().whole.worst;
-  const Result<BenchRun> run = bed.run(bed.whole(), 1, input.detections, "detections");
+  const Result<BenchRun> run = bed.run(bed.whole(), 3, input.detections, "detections");
   if (!run.ok()) return run.status();
   bench.run = run.value();
   bench.resident = resident_bytes();

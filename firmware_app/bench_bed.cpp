@@ -25,7 +25,7 @@ Result<BenchRun> BenchBed::run(const BenchSetting& setting, std::size_t warm_up,
                                const std::string& label) {
   const std::size_t frames = setting.frames.size();
   const std::size_t rounds = (detections + frames - 1) / frames;
-  const auto all = static_cast<float>((warm_up + rounds) * frames);
+  const auto all = static_cast<float>(warm_up + rounds * frames);
   float done = 0;
   progress_(label, 0);
   return run_detections(setting, warm_up, rounds, session_, [&] { progress_(label, ++done / all); });

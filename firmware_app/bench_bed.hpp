@@ -35,7 +35,7 @@ class BenchBed {
   /// All frames and banks, as they were given.
   [[nodiscard]] BenchSetting whole() const;
 
-  /// As often as asked for, after `warm_up` rounds over the frames. Fails as detect() does.
+  /// As often as asked for, after `warm_up` detections. Fails as detect() does.
   [[nodiscard]] Result<BenchRun> run(const BenchSetting& setting, std::size_t warm_up, std::size_t detections,
                                      const std::string& label);
   /// For one point of a curve: a tenth of the detections asked for, but three if there are as many.

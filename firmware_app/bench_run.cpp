@@ -95,21 +95,23 @@ Result<BenchRun> run_detections(const BenchSetting& setting, std::size_t warm_up
   run.detections = rounds * setting.frames.size();
   // Written to before the first detection, so that no fault of a page is theirs.
   std::vector<Sample> samples(run.detections);
-  std::size_t next = 0;
-  long faults = 0;
-  for (std::size_t round = 0; round < warm_up + rounds; ++round) {
-    if (round == warm_up) faults = page_faults();
-    for (LoadedFrame& frame : setting.frames) {
-      Detections detections;
-      const Result<Sample> sample = detect_once(setting, frame, session, detections);
-      if (!sample.ok()) return sample.status();
-      progress();
-      if (round < warm_up) continue;
-      samples[next++] = sample.value();
-      const std::array<double, bench_count_count> counts = counts_of(detections);
-      for (std::size_t i = 0; i < counts.size(); ++i) run.counts[i] += counts[i] / static_cast<double>(run.detections);
-      if ((detections.flags & flag_deadline) != 0) ++run.late;
-    }
+  const auto detect_in = [&](std::size_t number, Detections& detections) {
+    Result<Sample> sample = detect_once(setting, setting.frames[number % setting.frames.size()], session, detections);
+    if (sample.ok()) progress();
+    return sample;
+  };
+  Detections detections;
+  for (std::size_t i = 0; i < warm_up; ++i) {
+    if (const Result<Sample> sample = detect_in(i, detections); !sample.ok()) return sample.status();
+  }
+  const long faults = page_faults();
+  for (std::size_t i = 0; i < run.detections; ++i) {
+    const Result<Sample> sample = detect_in(i, detections);
+    if (!sample.ok()) return sample.status();
+    samples[i] = sample.value();
+    const std::array<double, bench_count_count> counts = counts_of(detections);
+    for (std::size_t c = 0; c < counts.size(); ++c) run.counts[c] += counts[c] / static_cast<double>(run.detections);
+    if ((detections.flags & flag_deadline) != 0) ++run.late;
   }
   run.page_faults = page_faults() - faults;
   run.whole = spread_over(samples, [](const Sample& sample) { return sample.whole; });

@@ -61,7 +61,7 @@ struct BenchRun {
   [[nodiscard]] double overshoot(double deadline) const { return whole.worst > deadline ? whole.worst - deadline : 0; }
 };
 
-/// Detects in every frame in turn, `rounds` times after `warm_up` rounds that do not count. `session` must
+/// Detects in every frame in turn, `rounds` times, after `warm_up` detections that do not count. `session` must
 /// fit. `progress` is told after each detection. Fails as detect() does.
 [[nodiscard]] Result<BenchRun> run_detections(const BenchSetting& setting, std::size_t warm_up, std::size_t rounds,
                                               DetectionSession& session, const std::function<void()>& progress);

@@ -51,7 +51,7 @@ inline PartGrasp angle_bar_grasp() {
 }
 
 /// A small bank of the angle bar, made in a second or so. Fails the program's test when it cannot be made.
-inline std::vector<std::byte> angle_bar_bank(std::uint32_t part_id = 7) {
+inline std::vector<std::byte> angle_bar_bank(std::uint32_t part_id = 7, float sampling = 0.05F) {
   PartDescription part;
   part.name = "angle bar";
   part.part_id = part_id;
@@ -61,6 +61,7 @@ inline std::vector<std::byte> angle_bar_bank(std::uint32_t part_id = 7) {
   BankBuildParameters build;
   build.candidate_views = 42;
   build.surface_points = 1024;
+  build.sampling = sampling;
   BankReport report;
   Result<std::vector<std::byte>> bytes = build_bank(part, build, report, [](float) {});
   return bytes.ok() ? std::move(bytes).value() : std::vector<std::byte>{};

@@ -11,7 +11,7 @@
 #include "drivers/files/atomic_file.hpp"
 #include "firmware_app/bench_run.hpp"
 #include "tests/firmware_app/graspd_process.hpp"
-#include "tests/firmware_app/pick_cycle_fixture.hpp"
+#include "tests/firmware_app/rendered_scene.hpp"
 
 namespace graspd {
 namespace {
@@ -34,11 +34,17 @@ TEST(TimeSpread, IsOfTimesThatWereMeasured) {
   EXPECT_EQ(spread_of({7}).median, 7);
 }
 
-/// `graspd bench` on a small frame with two angle bars.
+/// Sampled just finely enough to find the bar, which is done dozens of times.
+const std::vector<std::byte>& coarse_bank() {
+  static const std::vector<std::byte> bytes = angle_bar_bank(7, 0.09F);
+  return bytes;
+}
+
+/// `graspd bench` on a small frame with an angle bar.
 class BenchCommand : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(write_file(folder_.path("bar.bank"), shared_angle_bar_bank()).ok());
+    ASSERT_TRUE(write_file(folder_.path("bar.bank"), coarse_bank()).ok());
     std::filesystem::create_directories(folder_.path("frames"));
     static_cast<void>(
         folder_.write("frames/camera.json", R"({"fx": 200, "fy": 200, "cx": 79.5, "cy": 59.5, "depth_scale": 0.1})"));
@@ -46,7 +52,7 @@ class BenchCommand : public testing::Test {
   }
   /// Every other pixel of the scene.
   void write_frame(const std::string& name) const {
-    const RenderedScene scene = angle_bar_scene();
+    const RenderedScene scene = angle_bar_scene(1);
     std::vector<float> depth;
     for (int v = 0; v < scene.camera.height; v += 2) {
       for (int u = 0; u < scene.camera.width; u += 2) depth.push_back(scene.depth[scene.camera.index(u, v)]);
@@ -89,7 +95,7 @@ TEST_F(BenchCommand, MeasuresTimesWorkMemoryGrowthAndDeadlines) {
 
   const json bench = measured();
   EXPECT_EQ(bench["detections"], 1);
-  EXPECT_EQ(bench["work"]["instances"], 2.0);
+  EXPECT_EQ(bench["work"]["instances"], 1.0);
   EXPECT_GE(bench["work"]["pairs looked up"], bench["work"]["cells visited"]);
   EXPECT_GE(bench["work"]["votes"], bench["work"]["cells visited"]);
   double stages = 0;
@@ -102,7 +108,7 @@ TEST_F(BenchCommand, MeasuresTimesWorkMemoryGrowthAndDeadlines) {
 
   EXPECT_GT(sizes_of(bench, "scene points").size(), 2U);
   EXPECT_EQ(sizes_of(bench, "threads").front(), 1.0);
-  const Result<Bank> bank = read_bank(shared_angle_bar_bank(), "angle bar");
+  const Result<Bank> bank = read_bank(coarse_bank(), "angle bar");
   ASSERT_TRUE(bank.ok());
   EXPECT_EQ(sizes_of(bench, "views").back(), static_cast<double>(bank.value().views.size()));
   EXPECT_EQ(sizes_of(bench, "model references").back(), static_cast<double>(bank.value().reference_points.size()));
