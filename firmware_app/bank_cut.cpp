@@ -6,22 +6,20 @@ namespace graspd {
 
 BankCut::BankCut(const Bank& whole, const std::vector<bool>& kept)
     : bank_(whole), views_(whole.views.begin(), whole.views.end()) {
-  for (BankView& view : views_) {
-    const std::size_t first = view.first_reference;
-    const std::size_t end = first + view.reference_count;
-    view.first_reference = static_cast<std::uint32_t>(reference_points_.size());
-    for (std::size_t r = first; r < end; ++r) {
-      if (!kept[r]) continue;
-      reference_points_.push_back(whole.reference_points[r]);
-      reference_views_.push_back(whole.reference_views[r]);
-    }
-    view.reference_count = static_cast<std::uint32_t>(reference_points_.size()) - view.first_reference;
-  }
-  std::vector<std::uint32_t> new_number(kept.size());
-  std::uint32_t next = 0;
+  // For each reference how many were kept before it, and at the end how many in all.
+  std::vector<std::uint32_t> new_number;
+  const auto note_number = [&] { new_number.push_back(static_cast<std::uint32_t>(reference_points_.size())); };
   for (std::size_t r = 0; r < kept.size(); ++r) {
-    new_number[r] = next;
-    if (kept[r]) ++next;
+    note_number();
+    if (!kept[r]) continue;
+    reference_points_.push_back(whole.reference_points[r]);
+    reference_views_.push_back(whole.reference_views[r]);
+  }
+  note_number();
+  for (BankView& view : views_) {
+    const std::uint32_t end = new_number[view.first_reference + view.reference_count];
+    view.first_reference = new_number[view.first_reference];
+    view.reference_count = end - view.first_reference;
   }
   cell_offsets_.push_back(0);
   for (std::size_t cell = 0; cell + 1 < whole.cell_offsets.size(); ++cell) {

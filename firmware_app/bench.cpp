@@ -24,7 +24,7 @@ MemoryPlan memory_of(const BenchBed& bed, std::size_t baseline) {
   return plan;
 }
 
-Status measure_growth(BenchInput& input, BenchBed& bed, const BenchProgress& progress, std::vector<Growth>& growth) {
+Status measure_growth(BenchBed& bed, const BenchProgress& progress, std::vector<Growth>& growth) {
   const auto add = [&](Result<Growth> measured) -> Status {
     if (!measured.ok()) return measured.status();
     growth.push_back(std::move(measured).value());
@@ -33,7 +33,7 @@ Status measure_growth(BenchInput& input, BenchBed& bed, const BenchProgress& pro
   for (const auto& measure : {growth_with_scene, growth_with_references, growth_with_views}) {
     if (Status added = add(measure(bed)); !added.ok()) return added;
   }
-  BenchBed wide(input, most_threads(input), progress);
+  BenchBed wide(bed.input(), most_threads(bed.input()), progress);
   return add(growth_with_threads(wide));
 }
 
@@ -67,7 +67,7 @@ Result<Bench> run_bench(BenchInput& input, bool curves, std::size_t baseline, co
   bench.resident = resident_bytes();
   bench.memory = memory_of(bed, baseline);
   if (!curves) return bench;
-  if (Status grown = measure_growth(input, bed, progress, bench.growth); !grown.ok()) return grown;
+  if (Status grown = measure_growth(bed, progress, bench.growth); !grown.ok()) return grown;
   if (Status met = measure_deadlines(bed, bench.deadlines); !met.ok()) return met;
   return bench;
 }
