@@ -31,15 +31,15 @@ void append_input(std::string& text, const BenchInput& input, const Bench& bench
 void append_spread(std::string& text, const char* name, const TimeSpread& spread, double whole) {
   append(text, "%-18s %10.2f %10.2f %10.2f %10.2f %9.1f%%\n", name, milliseconds(spread.median),
          milliseconds(spread.percentile_99), milliseconds(spread.percentile_99_9), milliseconds(spread.worst),
-         100.0 * spread.median / whole);
+         100.0 * spread.mean / whole);
 }
 
 void append_times(std::string& text, const BenchRun& run) {
   append(text, "\n%-18s %10s %10s %10s %10s %10s\n", "time (ms)", "median", "99%", "99.9%", "worst", "share");
   for (std::size_t i = 0; i < stage_count; ++i) {
-    append_spread(text, stage_name(static_cast<Stage>(i)), run.stages[i], run.whole.median);
+    append_spread(text, stage_name(static_cast<Stage>(i)), run.stages[i], run.whole.mean);
   }
-  append_spread(text, "whole", run.whole, run.whole.median);
+  append_spread(text, "whole", run.whole, run.whole.mean);
 }
 
 void append_counts(std::string& text, const BenchRun& run) {
@@ -48,11 +48,12 @@ void append_counts(std::string& text, const BenchRun& run) {
     append(text, "%-18s %14.1f\n", bench_count_name(static_cast<BenchCount>(i)), run.counts[i]);
   }
   const double votes = run.count(BenchCount::votes);
-  const double matching = run.stages[static_cast<std::size_t>(Stage::match)].median;
+  const double matching = run.stages[static_cast<std::size_t>(Stage::match)].mean;
   if (votes > 0) append(text, "%-18s %14.2f\n", "ns of match a vote", 1e9 * matching / votes);
 }
 
 void append_growth(std::string& text, const Growth& growth) {
+  if (growth.points.empty()) return;
   append(text, "\n%-18s %9s", growth.with.c_str(), "whole");
   for (std::size_t i = 0; i < stage_count; ++i) append(text, " %10s", stage_name(static_cast<Stage>(i)));
   append(text, " %14s %10s\n", "votes", "instances");
@@ -83,7 +84,8 @@ Json spread_as_json(const TimeSpread& spread) {
   return {{"median", spread.median},
           {"percentile_99", spread.percentile_99},
           {"percentile_99_9", spread.percentile_99_9},
-          {"worst", spread.worst}};
+          {"worst", spread.worst},
+          {"mean", spread.mean}};
 }
 
 Json run_as_json(const BenchRun& run) {

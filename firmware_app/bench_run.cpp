@@ -3,6 +3,8 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "drivers/system/clock.hpp"
 
@@ -64,7 +66,8 @@ TimeSpread spread_of(std::vector<double> seconds) {
   std::sort(seconds.begin(), seconds.end());
   // The smallest value that so many thousandths of all do not exceed.
   const auto rank = [&](std::size_t thousandths) { return seconds[(seconds.size() * thousandths + 999) / 1000 - 1]; };
-  return {rank(500), rank(990), rank(999), seconds.back()};
+  const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  return {rank(500), rank(990), rank(999), seconds.back(), sum / static_cast<double>(seconds.size())};
 }
 
 const char* bench_count_name(BenchCount count) {

@@ -12,12 +12,13 @@
 
 namespace graspd {
 
-/// Exact order statistics of times in seconds: each is one that was measured (nearest rank).
+/// Exact order statistics of times in seconds: each is one that was measured (nearest rank). And their mean.
 struct TimeSpread {
   double median = 0;
   double percentile_99 = 0;    ///< 99 of 100 took no longer,
   double percentile_99_9 = 0;  ///< 999 of 1000.
   double worst = 0;
+  double mean = 0;  ///< Shares of it add up over the stages, whatever frames were mixed.
 };
 
 /// The spread of at least one time.

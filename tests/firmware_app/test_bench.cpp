@@ -28,6 +28,7 @@ TEST(TimeSpread, IsOfTimesThatWereMeasured) {
   EXPECT_EQ(spread.percentile_99, 99);
   EXPECT_EQ(spread.percentile_99_9, 100);
   EXPECT_EQ(spread.worst, 100);
+  EXPECT_DOUBLE_EQ(spread.mean, 50.5);
   const TimeSpread few = spread_of({3, 1, 2});
   EXPECT_EQ(few.median, 2);
   EXPECT_EQ(few.percentile_99, 3);
