@@ -1,7 +1,11 @@
 #include "drivers/camera/depth_decoding.hpp"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 namespace graspd {
 namespace {
@@ -16,33 +20,32 @@ Value load(const std::byte* place) {
   return value;
 }
 
-/// The invalid value as the format stores it; where it cannot be stored, nothing is invalid.
+/// The invalid value as the format would store it; no number, which nothing equals, where there is none.
 template <class Value>
-bool stored_invalid_value(const DepthDecoding& decoding, Value& invalid) {
-  invalid = static_cast<Value>(0);
-  if (!decoding.has_invalid_value || !std::isfinite(decoding.invalid_value)) return false;
-  if constexpr (std::is_integral_v<Value>) {
-    if (decoding.invalid_value < 0 || decoding.invalid_value > 65535) return false;
+double stored_invalid_value(const DepthDecoding& decoding) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const double value = decoding.invalid_value;
+  if (!decoding.has_invalid_value || !(std::abs(value) <= static_cast<double>(std::numeric_limits<Value>::max()))) {
+    return none;
   }
-  invalid = static_cast<Value>(decoding.invalid_value);
-  return std::is_floating_point_v<Value> || static_cast<double>(invalid) == decoding.invalid_value;
+  return std::is_integral_v<Value> ? value : static_cast<double>(static_cast<Value>(value));
 }
 
-/// One row. Without branches, so that the compiler makes vectors of it: invalid pixels are computed too, and
-/// then replaced.
+/// One row. The compiler makes vectors of it, which a test holds it to: one type in all comparisons, and what was not
+/// measured is computed too and then masked, as a choice between two values would become a branch.
 template <class Value, std::size_t Stride, std::size_t Place, bool Disparity>
-void decode_row(const DepthDecoding& decoding, bool has_invalid, Value invalid, const std::byte* row,
-                std::span<float> depth) {
+void decode_row(const DepthDecoding& decoding, double invalid, const std::byte* row, std::span<float> depth) {
   const double scale = decoding.scale;
   const double offset = decoding.offset;
   const double focal_baseline = decoding.focal_baseline;
   float* const out = depth.data();
   for (std::size_t i = 0; i < depth.size(); ++i) {
-    const auto stored = load<Value>(row + (i * Stride + Place) * sizeof(Value));
-    const double scaled = static_cast<double>(stored) * scale + offset;
+    const auto stored = static_cast<double>(load<Value>(row + (i * Stride + Place) * sizeof(Value)));
+    const double scaled = stored * scale + offset;
     const double z = Disparity ? focal_baseline / scaled : scaled;
-    const bool measured = (z > 0.0) & (z < farthest) & !(has_invalid & (stored == invalid));
-    out[i] = measured ? static_cast<float>(z) : 0.0F;
+    const bool measured = (z > 0.0) & (z < farthest) & (stored != invalid);
+    const std::uint64_t mask = 0 - static_cast<std::uint64_t>(measured);
+    out[i] = static_cast<float>(std::bit_cast<double>(std::bit_cast<std::uint64_t>(z) & mask));
   }
 }
 
@@ -50,15 +53,14 @@ template <class Value, std::size_t Stride, std::size_t Place>
 void decode_block(const DepthDecoding& decoding, const PixelBlock& block, std::span<float> depth) {
   const auto width = static_cast<std::size_t>(block.width);
   const std::size_t row_bytes = width * Stride * sizeof(Value) + block.row_padding;
-  Value invalid;
-  const bool has_invalid = stored_invalid_value(decoding, invalid);
+  const auto invalid = stored_invalid_value<Value>(decoding);
   for (std::size_t v = 0; v < static_cast<std::size_t>(block.height); ++v) {
     const std::byte* row = block.bytes.data() + v * row_bytes;
     const std::span<float> out = depth.subspan(v * width, width);
     if (decoding.focal_baseline > 0) {
-      decode_row<Value, Stride, Place, true>(decoding, has_invalid, invalid, row, out);
+      decode_row<Value, Stride, Place, true>(decoding, invalid, row, out);
     } else {
-      decode_row<Value, Stride, Place, false>(decoding, has_invalid, invalid, row, out);
+      decode_row<Value, Stride, Place, false>(decoding, invalid, row, out);
     }
   }
 }
