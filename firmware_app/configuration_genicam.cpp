@@ -64,6 +64,7 @@ void read_genicam_keys(SettingsTable& table, GenicamOptions& genicam) {
   table.read("device", genicam.device);
   table.read_choice<CameraTrigger>("trigger", genicam.trigger, triggers);
   table.read("trigger_line", genicam.trigger_line);
+  table.read("exposure_event", genicam.exposure_event);
   table.read("timeout", timeout, 0.05, 600);
   table.read("maximum_width", genicam.limits.maximum_width, 16, largest_side);
   table.read("maximum_height", genicam.limits.maximum_height, 16, largest_side);

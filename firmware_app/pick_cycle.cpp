@@ -22,6 +22,25 @@ Status grab(PickCycle& cycle, DepthFrame& frame) {
                         static_cast<double>(seconds(age)), static_cast<double>(seconds(cycle.settings.maximum_age_ns)));
 }
 
+/// Lets the robot move as soon as the frame is exposed.
+class MoveAllowed final : public ExposureListener {
+ public:
+  MoveAllowed(FrameSource& source, PlcLink& plc, std::uint16_t sequence)
+      : source_(source), plc_(plc), sequence_(sequence) {
+    source_.set_exposure_listener(this);
+  }
+  ~MoveAllowed() override { source_.set_exposure_listener(nullptr); }
+  MoveAllowed(const MoveAllowed&) = delete;
+  MoveAllowed& operator=(const MoveAllowed&) = delete;
+
+  void exposure_over() override { plc_.capture_done(sequence_); }
+
+ private:
+  FrameSource& source_;
+  PlcLink& plc_;
+  std::uint16_t sequence_;
+};
+
 DetectRequest detect_request(const PickCycle& cycle, const PlcRequest& request) {
   DetectRequest detect;
   detect.banks = cycle.capture.banks;
@@ -176,6 +195,7 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
   if (request.avoid_last_place) avoid_last_place(cycle);
 
   const std::int64_t start = now();
+  const MoveAllowed move_allowed(*cycle.source, plc, request.sequence);
   const Status grabbed = grab(cycle, capture.frame);
   plc.set_camera_ok(grabbed.code() != StatusCode::camera_lost);
   if (!grabbed.ok()) return failed(cycle, request, grabbed);

@@ -14,6 +14,15 @@ struct FrameLimits {
   int maximum_height = 0;
 };
 
+/// Somebody who waits for the end of exposures.
+class ExposureListener {
+ public:
+  virtual ~ExposureListener() = default;
+
+  /// The frame that is being grabbed has been exposed: what the camera looks at may move from now on.
+  virtual void exposure_over() = 0;
+};
+
 /// Where depth frames come from.
 class FrameSource {
  public:
@@ -32,6 +41,10 @@ class FrameSource {
 
   /// A name of the last frame grabbed, for the journal.
   [[nodiscard]] virtual std::string_view frame_name() const = 0;
+
+  /// From now on grab() tells `listener` (null: nobody), which must live as long, when an exposure is over before its
+  /// frame is there; on the thread that grabs. Sources that cannot know stay silent.
+  virtual void set_exposure_listener(ExposureListener* /*listener*/) {}
 
   /// False as long as a frame asked for now could not come: the camera is not connected.
   [[nodiscard]] virtual bool connected() const { return true; }

@@ -11,6 +11,8 @@ namespace graspd {
 namespace {
 
 constexpr std::int64_t slice_ns = 50'000'000;
+/// Between two looks whether the exposure is over.
+constexpr std::int64_t exposure_slice_ns = 2'000'000;
 
 /// Taken by a heartbeat thread of Aravis.
 void note_lost(ArvDevice*, std::atomic<bool>* lost) { *lost = true; }
@@ -52,6 +54,10 @@ Status GenicamSession::set_up() {
     break;
   }
   if (Status set = set_up_camera(device_, options_, has_confidence_); !set.ok()) return set;
+  if (!options_.exposure_event.empty()) {
+    std::optional<ExposureEvents> events = ExposureEvents::subscribe(device_, options_.exposure_event);
+    if (events) exposures_.emplace(std::move(*events));
+  }
   const Scan3dNodes nodes = read_scan3d_nodes(device_);
   if (lost_ || nodes.width == 0) return {StatusCode::camera_lost, "the camera stopped answering"};
   Result<Scan3dInterpretation> made = interpret_scan3d(nodes, options_.scan3d);
@@ -113,12 +119,26 @@ void GenicamSession::keep(ArvBuffer* buffer) {
   kept_captured_ns_ = arrival_ns(buffer);
 }
 
+void GenicamSession::await_exposure() {
+  if (!exposures_) return;
+  exposures_->clear();
+  awaits_exposure_ = true;
+}
+
+void GenicamSession::look_for_exposure() {
+  if (!awaits_exposure_ || !exposures_->arrived()) return;
+  awaits_exposure_ = false;
+  if (tell_exposure_over_) tell_exposure_over_();
+}
+
 ArvBuffer* GenicamSession::wait_for_buffer(std::int64_t deadline_ns, const std::atomic<bool>& wanted) {
   while (!lost_ && wanted) {
     const std::int64_t left_ns = deadline_ns - monotonic_ns();
     if (left_ns <= 0) break;
-    const auto wait_us = static_cast<guint64>(std::max<std::int64_t>(1, std::min(left_ns, slice_ns) / 1000));
+    const std::int64_t longest_ns = awaits_exposure_ ? exposure_slice_ns : slice_ns;
+    const auto wait_us = static_cast<guint64>(std::max<std::int64_t>(1, std::min(left_ns, longest_ns) / 1000));
     if (ArvBuffer* buffer = arv_stream_timeout_pop_buffer(stream_, wait_us); buffer != nullptr) return buffer;
+    look_for_exposure();
   }
   return nullptr;
 }
@@ -173,6 +193,7 @@ Status GenicamSession::take(std::int64_t deadline_ns, const std::atomic<bool>& w
     while (ArvBuffer* old = arv_stream_try_pop_buffer(stream_)) drop_late(old);
     if (Status awaited = await_late_frame(deadline_ns, wanted); !awaited.ok()) return awaited;
     awaits_frame_ = true;
+    await_exposure();
     if (Status triggered = device_.execute("TriggerSoftware"); !triggered.ok()) {
       lost_ = true;
       return triggered;
@@ -181,8 +202,10 @@ Status GenicamSession::take(std::int64_t deadline_ns, const std::atomic<bool>& w
     idle(0);
     if (kept_ != nullptr && monotonic_ns() - kept_captured_ns_ <= options_.maximum_age_ns) return {};
     discard();
+    await_exposure();
   }
   ArvBuffer* buffer = wait_for_buffer(deadline_ns, wanted);
+  awaits_exposure_ = false;
   if (buffer != nullptr) return accept(buffer);
   // Its frame may still come, and must not be taken for that of the next request.
   Status missing = missing_frame();

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 #include "core/status.hpp"
 #include "drivers/camera/genicam_buffer.hpp"
 #include "drivers/camera/genicam_device.hpp"
+#include "drivers/camera/genicam_events.hpp"
 #include "drivers/camera/genicam_setup.hpp"
 #include "drivers/camera/scan3d.hpp"
 
@@ -30,6 +32,9 @@ class GenicamSession {
   ~GenicamSession();
   GenicamSession(const GenicamSession&) = delete;
   GenicamSession& operator=(const GenicamSession&) = delete;
+
+  /// From now on take() calls `tell` when the camera says that the exposure is over, before the frame is there.
+  void on_exposure_over(std::function<void()> tell) { tell_exposure_over_ = std::move(tell); }
 
   /// Waits for a frame that `options.trigger` allows, at the latest until `deadline_ns` or until `wanted`
   /// is false, and keeps it for decode(). Fails with camera_lost when none comes or control is lost, with
@@ -64,6 +69,8 @@ class GenicamSession {
   GenicamSession(GenicamDevice device, const GenicamOptions& options);
   [[nodiscard]] Status set_up();
   [[nodiscard]] Status start_stream();
+  void await_exposure();
+  void look_for_exposure();
   [[nodiscard]] Status accept(ArvBuffer* buffer);
   [[nodiscard]] Status check_image(ArvBuffer* buffer, int part);
   void keep(ArvBuffer* buffer);
@@ -83,6 +90,9 @@ class GenicamSession {
   std::int64_t kept_captured_ns_ = 0;
   std::int64_t late_until_ns_ = 0;
   bool awaits_frame_ = false;
+  std::optional<ExposureEvents> exposures_;
+  std::function<void()> tell_exposure_over_;
+  bool awaits_exposure_ = false;
   std::uint64_t frames_ = 0;
   std::atomic<bool> lost_{false};
   bool changed_ = false;

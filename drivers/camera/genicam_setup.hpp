@@ -23,8 +23,10 @@ enum class CameraTrigger : std::uint8_t {
 struct GenicamOptions {
   std::string device = "first";  ///< Serial number, IP address, or "first".
   CameraTrigger trigger = CameraTrigger::software;
-  std::string trigger_line = "Line0";           ///< TriggerSource for CameraTrigger::hardware.
-  std::int64_t timeout_ns = 2'000'000'000;      ///< From the request for a frame to the frame.
+  std::string trigger_line = "Line0";  ///< TriggerSource for CameraTrigger::hardware.
+  std::string exposure_event =
+      "ExposureEnd";                        ///< What EventSelector calls the end of an exposure; empty: not asked for.
+  std::int64_t timeout_ns = 2'000'000'000;  ///< From the request for a frame to the frame.
   std::int64_t maximum_age_ns = 1'000'000'000;  ///< Of a frame that was exposed before it was asked for.
   bool confidence = true;                       ///< Have the camera send confidences where it can, and use them.
   bool packet_resend = true;                    ///< Ask for lost packets again.

@@ -47,9 +47,17 @@ Status GenicamSource::grab(std::span<float> storage, DepthFrame& frame) {
   deadline_ns_ = monotonic_ns() + options_.timeout_ns;
   request_ = RequestState::wanted;
   wanted_ = true;
+  exposed_ = false;
   to_thread_.notify_all();
-  const bool answered = to_caller_.wait_until(lock, time_point(deadline_ns_ + grace_ns),
-                                              [this] { return request_ == RequestState::done; });
+  const auto end = time_point(deadline_ns_ + grace_ns);
+  const auto is_done = [this] { return request_ == RequestState::done; };
+  to_caller_.wait_until(lock, end, [&] { return exposed_ || is_done(); });
+  if (exposed_ && listener_ != nullptr) {
+    lock.unlock();
+    listener_->exposure_over();
+    lock.lock();
+  }
+  const bool answered = to_caller_.wait_until(lock, end, is_done);
   // Storage that is being written must not be given back.
   if (!answered) to_caller_.wait(lock, [this] { return request_ != RequestState::decoding; });
   const bool done = request_ == RequestState::done;
@@ -112,6 +120,7 @@ void GenicamSource::connect() {
   }
   session_ = std::move(opened).value();
   session_->expect_late_frame(late_until_ns_);
+  session_->on_exposure_over([this] { note_exposed(); });
   pause_ns_ = 0;
   last_failure_ = {};
   const Camera& camera = session_->interpretation().camera;
@@ -177,6 +186,14 @@ void GenicamSource::finish(const Status& status) {
     if (request_ != RequestState::wanted && request_ != RequestState::decoding) return;
     status_ = status;
     request_ = RequestState::done;
+  }
+  to_caller_.notify_all();
+}
+
+void GenicamSource::note_exposed() {
+  {
+    const std::lock_guard lock(mutex_);
+    exposed_ = true;
   }
   to_caller_.notify_all();
 }

@@ -35,6 +35,7 @@ class GenicamSource final : public FrameSource {
   [[nodiscard]] FrameLimits limits() const override { return options_.limits; }
   [[nodiscard]] DepthFrame empty_bin() override;
   [[nodiscard]] std::string_view frame_name() const override { return name_.data(); }
+  void set_exposure_listener(ExposureListener* listener) override { listener_ = listener; }
   [[nodiscard]] bool connected() const override { return connected_; }
 
   /// Waits until the camera is connected; false when it is not after `duration_ns`.
@@ -51,15 +52,18 @@ class GenicamSource final : public FrameSource {
   void wait_between_attempts();
   void serve();
   void finish(const Status& status);
+  void note_exposed();
   [[nodiscard]] Status check_empty_bin(const Camera& camera) const;
 
   const GenicamOptions options_;
+  ExposureListener* listener_ = nullptr;  ///< Of the caller's thread alone.
   LoadedFrame empty_bin_;
 
   std::mutex mutex_;
   std::condition_variable to_thread_;
   std::condition_variable to_caller_;
   RequestState request_ = RequestState::none;
+  bool exposed_ = false;  ///< The frame of the request, which is on its way.
   std::span<float> storage_;
   std::int64_t deadline_ns_ = 0;
   DepthFrame frame_;

@@ -137,6 +137,7 @@ void SimulatedCamera::set_up_registers() {
                 description_.size());
   put_text(reg::description_url, 512, url);
   put(reg::network_interface_count, 1);
+  put(reg::message_channel_count, 1);
   put(reg::stream_channel_count, 1);
   put(reg::capability, reg::capability_write_memory | (options_.answers_resend ? reg::capability_resend : 0));
   put(reg::heartbeat_timeout, 3000);
@@ -153,6 +154,8 @@ void SimulatedCamera::set_up_registers() {
   put(component_enable_register(SimulatedComponent::range), 1);
   put(component_enable_register(SimulatedComponent::intensity), options_.always_sends_intensity ? 1 : 0);
   put(reg::invalid_flag, 1);
+  constexpr std::uint32_t event_of_its_own = 0x9001;
+  put(reg::event_exposure_end, event_of_its_own);
   put_real(reg::invalid_value, options_.encoding.invalid);
   put_real(reg::offset, options_.encoding.offset);
   put_real(reg::exposure_time, 10'000);
@@ -217,6 +220,12 @@ sockaddr_in SimulatedCamera::stream_target() const {
   return target;
 }
 
+/// Does nothing but answer for so long.
+void SimulatedCamera::spend(std::int64_t duration_ns) {
+  const std::int64_t end_ns = monotonic_ns() + duration_ns;
+  while (monotonic_ns() < end_ns && !stop_) answer_controls(1);
+}
+
 /// The components that are on, intensity first, so that clients must look for depth; without multipart depth alone.
 std::vector<StreamPart> SimulatedCamera::parts_of(DepthFrame frame) const {
   const SensorRegion sent = region();
@@ -237,8 +246,9 @@ std::vector<StreamPart> SimulatedCamera::parts_of(DepthFrame frame) const {
 void SimulatedCamera::send_frame() {
   LoadedFrame& played = frames_[next_frame_++ % frames_.size()];
   std::vector<StreamPart> parts = parts_of(played.frame());
-  const std::int64_t exposed_ns = monotonic_ns() + options_.exposure_ns;
-  while (monotonic_ns() < exposed_ns && !stop_) answer_controls(1);
+  spend(options_.exposure_ns);
+  tell_exposure_over();
+  spend(options_.readout_ns);
   frame_id_ = frame_id_ == 0xFFFF ? std::uint16_t{1} : static_cast<std::uint16_t>(frame_id_ + 1);
   frame_.emplace(frame_id_, static_cast<std::uint64_t>(monotonic_ns()), std::move(parts),
                  get(reg::stream_packet_size) & 0xFFFFU, truncated_);

@@ -30,7 +30,8 @@ struct SimulatedCameraOptions {
   float sure_up_to = 1000.0F;           ///< Metres; confidences are 0 beyond.
   double lost_packets = 0.0;            ///< Share of the stream's packets that are not sent.
   bool answers_resend = true;           ///< Sends packets again when the client asks.
-  std::int64_t exposure_ns = 0;         ///< From the trigger to the first packet.
+  std::int64_t exposure_ns = 0;         ///< From the trigger to the end of the exposure, which is told as an event.
+  std::int64_t readout_ns = 0;          ///< From there to the first packet.
   bool always_sends_intensity = false;  ///< The component Intensity cannot be switched off.
 };
 
@@ -86,6 +87,8 @@ class SimulatedCamera {
   void read_memory(std::uint32_t address, std::span<std::byte> out) const;
 
   [[nodiscard]] bool frame_is_due();
+  void tell_exposure_over();
+  void spend(std::int64_t duration_ns);
   void send_frame();
   void send_packet(std::uint32_t index);
   void send_test_packet();
@@ -112,6 +115,7 @@ class SimulatedCamera {
   std::int64_t next_frame_ns_ = 0;
   std::size_t next_frame_ = 0;
   std::uint16_t frame_id_ = 0;
+  std::uint16_t event_count_ = 0;
   std::optional<StreamFrame> frame_;
   std::vector<std::byte> packet_;
   std::minstd_rand random_;

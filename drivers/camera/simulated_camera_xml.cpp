@@ -104,8 +104,8 @@ constexpr std::uint32_t number(SimulatedComponent component) { return static_cas
 
 std::string simulated_camera_xml() {
   Description d;
-  d.category("Root",
-             {"DeviceControl", "ImageFormatControl", "AcquisitionControl", "Scan3dControl", "TransportLayerControl"});
+  d.category("Root", {"DeviceControl", "ImageFormatControl", "AcquisitionControl", "EventControl", "Scan3dControl",
+                      "TransportLayerControl"});
   d.category("DeviceControl", {"DeviceVendorName", "DeviceModelName", "DeviceVersion", "DeviceSerialNumber"});
   d.text("DeviceVendorName", reg::manufacturer_name, 32);
   d.text("DeviceModelName", reg::model_name, 32);
@@ -142,6 +142,11 @@ std::string simulated_camera_xml() {
   d.choice("TriggerSource", reg::trigger_source, read_write, {{"Line0", 0}, {"Software", 1}});
   d.command("TriggerSoftware", reg::trigger_software, 1, "TriggerSoftwareRegister");
   d.real("ExposureTime", reg::exposure_time, read_write);
+
+  d.category("EventControl", {"EventSelector", "EventNotification", "EventExposureEnd"});
+  d.choice("EventSelector", reg::event_selector, read_write, {{"ExposureEnd", 0}});
+  d.choice("EventNotification", reg::event_notification, read_write, {{"Off", 0}, {"On", 1}});
+  d.integer("EventExposureEnd", reg::event_exposure_end);
 
   d.category("Scan3dControl",
              {"Scan3dOutputMode", "Scan3dDistanceUnit", "Scan3dCoordinateSelector", "Scan3dCoordinateScale",

@@ -22,6 +22,7 @@ namespace {
 enum Command : std::uint16_t {
   discovery = 0x0002,
   packet_resend = 0x0040,
+  event_command = 0x00C0,
   read_register = 0x0080,
   write_register_command = 0x0082,
   read_memory_command = 0x0084,
@@ -70,7 +71,11 @@ bool same(const sockaddr_in& a, const sockaddr_in& b) {
 
 /// What a client may write; all else tells of the camera.
 bool is_writable(std::uint32_t address) {
-  constexpr std::array writable{reg::heartbeat_timeout,
+  constexpr std::array writable{reg::message_port,
+                                reg::message_address,
+                                reg::event_selector,
+                                reg::event_notification,
+                                reg::heartbeat_timeout,
                                 reg::control_privilege,
                                 reg::stream_port,
                                 reg::stream_packet_size,
@@ -133,6 +138,8 @@ void SimulatedCamera::release_control() {
   controlled_ = false;
   put(reg::control_privilege, 0);
   put(reg::acquisition, 0);
+  put(reg::message_port, 0);
+  put(reg::event_notification, 0);
   triggered_ = false;
 }
 
@@ -234,6 +241,29 @@ void SimulatedCamera::answer(int socket, const sockaddr_in& client, std::span<co
   acknowledgement.insert(acknowledgement.end(), reply.begin(), reply.end());
   ::sendto(socket, acknowledgement.data(), acknowledgement.size(), 0, reinterpret_cast<const sockaddr*>(&client),
            sizeof client);
+}
+
+void SimulatedCamera::tell_exposure_over() {
+  if (get(reg::message_port) == 0 || get(reg::event_notification) == 0) return;
+  constexpr std::byte answer_wanted{0x01};
+  constexpr std::uint16_t event_bytes = 16;
+  std::vector<std::byte> message{command_key, answer_wanted};
+  append(message, static_cast<std::uint16_t>(event_command));
+  append(message, event_bytes);
+  append(message, ++event_count_);
+  append(message, std::uint16_t{0});
+  append(message, static_cast<std::uint16_t>(get(reg::event_exposure_end)));
+  append(message, std::uint16_t{0});
+  append(message, static_cast<std::uint16_t>(frame_id_ + 1));
+  const auto now_ns = static_cast<std::uint64_t>(monotonic_ns());
+  append(message, static_cast<std::uint32_t>(now_ns >> 32U));
+  append(message, static_cast<std::uint32_t>(now_ns));
+  sockaddr_in target{};
+  target.sin_family = AF_INET;
+  target.sin_addr.s_addr = htonl(get(reg::message_address));
+  target.sin_port = htons(static_cast<std::uint16_t>(get(reg::message_port)));
+  ::sendto(sockets_.control.number(), message.data(), message.size(), 0, reinterpret_cast<const sockaddr*>(&target),
+           sizeof target);
 }
 
 void SimulatedCamera::resend(std::span<const std::byte> message, bool extended) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "drivers/camera/frame_source.hpp"
@@ -34,6 +35,8 @@ class ScriptedSource : public FrameSource {
   explicit ScriptedSource(RenderedScene content) : scene(std::move(content)) {}
 
   [[nodiscard]] Status grab(std::span<float> storage, DepthFrame& frame) override {
+    if (listener_ != nullptr && tells_exposure) listener_->exposure_over();
+    if (while_on_its_way) while_on_its_way();
     if (!failure.ok()) return failure;
     std::copy(scene.depth.begin(), scene.depth.end(), storage.begin());
     frame = {scene.camera, storage.first(scene.depth.size()), captured_ns, ++sequence};
@@ -43,10 +46,17 @@ class ScriptedSource : public FrameSource {
   [[nodiscard]] DepthFrame empty_bin() override { return {scene.camera, scene.empty, 0, 0}; }
   [[nodiscard]] std::string_view frame_name() const override { return "scripted"; }
 
+  void set_exposure_listener(ExposureListener* listener) override { listener_ = listener; }
+
   RenderedScene scene;
   Status failure;
+  bool tells_exposure = false;
+  std::function<void()> while_on_its_way;  ///< Called when the frame is exposed, but not there.
   std::int64_t captured_ns = 0;
   std::uint64_t sequence = 0;
+
+ private:
+  ExposureListener* listener_ = nullptr;
 };
 
 }  // namespace graspd

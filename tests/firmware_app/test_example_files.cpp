@@ -94,6 +94,7 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   const auto compare = [&](auto member, const char* key) {
     same(static_cast<double>(member(shown)), static_cast<double>(member(real)), key);
   };
+  EXPECT_EQ(shown.camera.genicam.exposure_event, real.camera.genicam.exposure_event);
 #define GRASPD_COMPARE(path) compare([](const Configuration& c) { return c.path; }, #path)
   GRASPD_COMPARE(camera.maximum_age);
   GRASPD_COMPARE(record.when);

@@ -32,6 +32,18 @@ float nearest(const RigidTransform& pose, const RenderedScene& scene) {
   return best;
 }
 
+TEST(PickCycle, TheRobotMayMoveWhenTheFrameIsExposed) {
+  for (const bool tells : {true, false}) {
+    PickCycleFixture fixture(angle_bar_scene());
+    fixture.source.tells_exposure = tells;
+    std::uint16_t told = 0;
+    fixture.source.while_on_its_way = [&] { told = fixture.plc.captured; };
+    EXPECT_EQ(fixture.ask().block.code, ResultCode::ok);
+    EXPECT_EQ(told, tells ? fixture.sequence : 0) << "while the frame was on its way";
+    EXPECT_EQ(fixture.plc.captured, fixture.sequence) << "at the latest when it was there";
+  }
+}
+
 TEST(PickCycle, PicksAPartWhereItLies) {
   PickCycleFixture fixture(angle_bar_scene());
   const Answer answer = fixture.ask();

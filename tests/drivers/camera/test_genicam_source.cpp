@@ -187,6 +187,45 @@ TEST_F(CameraOnTheWire, TakesTheFrameAfterTheRequest) {
   EXPECT_EQ(camera_->frames_sent(), 3U) << "one exposure for each request, none between";
 }
 
+/// Notes when it was told, and how many frames the camera had sent by then.
+class NotedExposures final : public ExposureListener {
+ public:
+  explicit NotedExposures(const SimulatedCamera& camera) : camera_(camera) {}
+  void exposure_over() override {
+    told_ns.push_back(monotonic_ns());
+    sent.push_back(camera_.frames_sent());
+  }
+
+  std::vector<std::int64_t> told_ns;
+  std::vector<std::uint64_t> sent;
+
+ private:
+  const SimulatedCamera& camera_;
+};
+
+TEST_F(CameraOnTheWire, TellsThatTheExposureIsOverWhileTheFrameIsOnItsWay) {
+  simulated_.exposure_ns = 50'000'000;
+  simulated_.readout_ns = 700'000'000;
+  switch_on();
+  NotedExposures exposures(*camera_);
+  connect();
+  source_->set_exposure_listener(&exposures);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::int64_t asked = monotonic_ns();
+    ASSERT_TRUE(grab().ok());
+    ASSERT_EQ(exposures.told_ns.size(), i + 1) << "once for each frame";
+    EXPECT_GE(exposures.told_ns[i] - asked, simulated_.exposure_ns);
+    EXPECT_EQ(exposures.sent[i], i) << "before the frame was sent";
+    expect_frame(i);
+  }
+  source_.reset();
+  options_.exposure_event.clear();
+  connect();
+  source_->set_exposure_listener(&exposures);
+  EXPECT_TRUE(grab().ok());
+  EXPECT_EQ(exposures.told_ns.size(), 2U) << "it was not asked to tell";
+}
+
 TEST_F(CameraOnTheWire, TakesWhatALineTriggered) {
   options_.trigger = CameraTrigger::hardware;
   options_.maximum_age_ns = 100'000'000;
