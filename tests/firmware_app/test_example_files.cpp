@@ -73,8 +73,11 @@ TEST(ExampleConfiguration, ExplainsEveryKey) {
   for (const auto& entry : std::filesystem::directory_iterator(source("firmware_app"))) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with("configuration") || !name.ends_with(".cpp")) continue;
+    const std::set<std::string> keys = keys_asked_for("firmware_app/" + name);
+    // Those of the command line ask for none.
+    if (keys.empty()) continue;
     ++files;
-    expect_all_explained(example, keys_asked_for("firmware_app/" + name));
+    expect_all_explained(example, keys);
   }
   EXPECT_GT(files, 4);
 }
