@@ -69,6 +69,7 @@ class GenicamSession {
   GenicamSession(GenicamDevice device, const GenicamOptions& options);
   [[nodiscard]] Status set_up();
   [[nodiscard]] Status start_stream();
+  [[nodiscard]] Status check_mode();
   void await_exposure();
   void look_for_exposure();
   [[nodiscard]] Status accept(ArvBuffer* buffer);
@@ -85,6 +86,7 @@ class GenicamSession {
   Scan3dInterpretation interpretation_;
   bool has_confidence_ = false;
   std::optional<ImagePlace> first_place_;
+  std::optional<std::int64_t> output_mode_;  ///< The number of Scan3dOutputMode when the nodes were read.
   ArvStream* stream_ = nullptr;
   ArvBuffer* kept_ = nullptr;
   std::int64_t kept_captured_ns_ = 0;

@@ -182,6 +182,7 @@ void SimulatedCamera::refresh() {
   const Camera& camera = frames_.front().camera;
   put_real(reg::principal_point_u, static_cast<double>(camera.cx) - get(reg::offset_x));
   put_real(reg::principal_point_v, static_cast<double>(camera.cy) - get(reg::offset_y));
+  if (const int mode = new_mode_.exchange(-1); mode >= 0) put(reg::output_mode, static_cast<std::uint32_t>(mode));
   const DepthEncoding now = encoding();
   put_real(reg::scale, coordinate_scale(now));
   put(reg::distance_unit, sends_disparities(now) ? 1 : 0);

@@ -56,6 +56,8 @@ class SimulatedCamera {
   void set_deaf(bool deaf) { deaf_ = deaf; }
   /// From now on frames lack their second half, or are whole again.
   void set_truncated(bool truncated) { truncated_ = truncated; }
+  /// From now on stored values mean something else, as if somebody had changed the output mode.
+  void set_output_mode(SimulatedOutputMode mode) { new_mode_ = static_cast<int>(mode); }
   /// From now on frames are these pixels alone, as if somebody had changed the region.
   void set_region(const SensorRegion& region);
 
@@ -125,6 +127,7 @@ class SimulatedCamera {
   std::atomic<bool> deaf_{false};
   std::atomic<bool> truncated_{false};
   std::atomic<std::uint64_t> region_{0};
+  std::atomic<int> new_mode_{-1};
   std::atomic<std::uint64_t> frames_sent_{0};
   std::atomic<std::uint64_t> packets_lost_{0};
   std::atomic<std::uint64_t> packets_resent_{0};

@@ -219,6 +219,20 @@ TEST_F(CameraFaults, RegionMovesUnderWay) {
   EXPECT_EQ(frame_.at(0, 0), frames_[2].frame().at(20, 10));
 }
 
+TEST_F(CameraFaults, OutputModeChangesUnderWay) {
+  switch_on();
+  connect();
+  ASSERT_TRUE(grab_in_time().ok());
+  camera_->set_output_mode(SimulatedOutputMode::disparity_c);
+  // The camera takes it up between two commands.
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const Status changed = grab_in_time();
+  EXPECT_EQ(changed.code(), StatusCode::bad_frame) << changed.message();
+  EXPECT_THAT(std::string(changed.message()), HasSubstr("Scan3dOutputMode is another"));
+  recover("another output mode");
+  EXPECT_NEAR(frame_.at(5, 5), frames_[1].frame().at(5, 5), 0.0003F) << "disparities are taken for disparities";
+}
+
 // A sanitizer keeps what was freed, and tells of leaks itself.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool sanitized = true;
