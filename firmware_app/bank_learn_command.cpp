@@ -65,9 +65,11 @@ Result<Pupil> pupil_from_bank(const std::string& path) {
   pupil.part.symmetry_discrete.assign(bank.symmetry_discrete.begin() + 1, bank.symmetry_discrete.end());
   pupil.part.symmetry_continuous = bank.part->symmetry_continuous != 0;
   pupil.part.symmetry_axis = bank.part->symmetry_axis;
+  pupil.part.twins.emplace(bank.twins.begin(), bank.twins.end());
   pupil.part.grasps.assign(bank.grasps.begin(), bank.grasps.end());
   pupil.part.thresholds = bank.part->thresholds;
   pupil.build.sampling = bank.part->sampling / bank.part->diameter;
+  pupil.build.detail = bank.part->detail / bank.part->sampling;
   pupil.sampling_given = true;
   pupil.build.edges_refine = bank.part->edges_refine != 0;
   pupil.build.edges_judge = bank.part->edges_judge != 0;

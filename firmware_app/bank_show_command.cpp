@@ -29,7 +29,8 @@ void print_part(const Bank& bank) {
               millimetres(size.z()), millimetres(part.diameter));
   std::printf("symmetry    %zu discrete poses%s\n", bank.symmetry_discrete.size(),
               part.symmetry_continuous != 0 ? ", any turn about an axis" : "");
-  std::printf("sampling    %.2f mm\n", millimetres(part.sampling));
+  std::printf("sampling    %.2f mm, poses are judged at %.2f mm\n", millimetres(part.sampling),
+              millimetres(part.detail));
   const VerifyThresholds& limits = part.thresholds;
   std::printf("thresholds  score %.2f, overlap %.2f, boundary %.2f, edge %.2f, below %.2f\n",
               static_cast<double>(limits.minimum_score), static_cast<double>(limits.minimum_overlap),
@@ -58,6 +59,7 @@ void print_sections(const Bank& bank, std::size_t file_bytes) {
   print_section("mesh vertices", bank.mesh.vertices);
   print_section("mesh triangles", bank.mesh.triangles);
   print_section("symmetry poses", bank.symmetry_discrete);
+  print_section("twins", bank.twins);
   print_section("grasps", bank.grasps);
   std::printf("%-20s %10s %12.1f\n", "file", "", kibibytes(file_bytes));
 }

@@ -24,9 +24,12 @@ void read_match(SettingsTable table, DetectParameters& parameters) {
   table.read("peaks_per_reference", parameters.match.peaks_per_reference, 1, 100);
   table.read("minimum_peak_share", parameters.match.minimum_peak_share, 0, 1);
   table.read("plausible", parameters.cluster.plausible, 1, 100000);
+  table.read("closer", parameters.refine.closer, 1, 100000);
   table.read("judged", parameters.refine.judged, 1, 100000);
   table.read("plausible_per_place", parameters.cluster.plausible_per_place, 1, 1000);
+  table.read("closer_per_place", parameters.refine.closer_per_place, 1, 1000);
   table.read("judged_per_place", parameters.refine.judged_per_place, 1, 1000);
+  table.read("twins", parameters.refine.twins, 0, 100);
   table.read("verify_tolerance", parameters.verify.tolerance, 0.05, 5);
   table.read("verify_blurred_tolerance", parameters.verify.blurred_tolerance, 0.05, 5);
   table.read("minimum_measured", parameters.verify.minimum_measured, 0, 1);

@@ -41,6 +41,7 @@ struct BankPart {
   Vector3 box_min = Vector3::Zero();
   Vector3 box_max = Vector3::Zero();
   float sampling = 0;  ///< Voxel edge of the view points: scene sampling follows it.
+  float detail = 0;    ///< Length (metres) that counts when poses are refined and judged; at most `sampling`.
   std::uint32_t symmetry_continuous = 0;
   SymmetryAxis symmetry_axis;
   VerifyThresholds thresholds;
@@ -99,6 +100,7 @@ struct Bank {
   VisibilityTable visibility;  ///< Over `surface`.
   MeshView mesh;               ///< Simplified: for rendering, not for looks.
   std::span<const RigidTransform> symmetry_discrete;
+  std::span<const RigidTransform> twins;  ///< Poses (part_from_part) in which the part nearly looks the same.
   std::span<const PartGrasp> grasps;
 
   [[nodiscard]] Symmetry symmetry() const {

@@ -27,6 +27,9 @@ const char* part_fault(const BankPart& part) {
   if (!is_within(part.sampling / part.diameter, 1e-4F, 1.0F) || !is_within(part.diameter, 1e-4F, 1e3F)) {
     return "the part's diameter and sampling contradict each other";
   }
+  if (!is_within(part.detail, 0.1F * part.sampling, part.sampling)) {
+    return "the part's sampling and detail contradict each other";
+  }
   if (part.symmetry_continuous > 1 || !part.symmetry_axis.point.allFinite() || !is_unit(part.symmetry_axis.direction)) {
     return "the part's symmetry axis is not a line";
   }
@@ -150,6 +153,7 @@ const char* shape_fault(const Bank& bank) {
   if (!std::all_of(bank.symmetry_discrete.begin(), bank.symmetry_discrete.end(), is_rigid)) {
     return "a symmetry is not a rigid transform";
   }
+  if (!std::all_of(bank.twins.begin(), bank.twins.end(), is_rigid)) return "a twin is not a rigid transform";
   for (const PartGrasp& grasp : bank.grasps) {
     if (!is_rigid(grasp.part_from_tool)) return "a grasp is not a rigid transform";
     const auto kind = static_cast<std::uint32_t>(grasp.kind);

@@ -37,6 +37,8 @@ const char* bank_section_name(BankSection section) {
       return "mesh triangles";
     case BankSection::symmetry_discrete:
       return "symmetries";
+    case BankSection::twins:
+      return "twins";
     case BankSection::grasps:
       return "grasps";
   }

@@ -10,7 +10,7 @@ namespace graspd {
 /// The bank file: a header, a directory of sections, then the sections, each an array that is read in
 /// place. Every section starts at a multiple of bank_alignment from the start of the file.
 inline constexpr std::array<char, 8> bank_magic{'G', 'R', 'A', 'S', 'P', 'B', 'N', 'K'};
-inline constexpr std::uint32_t bank_version = 3;
+inline constexpr std::uint32_t bank_version = 4;
 inline constexpr std::uint32_t bank_byte_order = 0x01020304U;
 inline constexpr std::uint32_t bank_byte_order_swapped = 0x04030201U;
 inline constexpr std::size_t bank_alignment = 64;
@@ -32,9 +32,10 @@ enum class BankSection : std::uint32_t {
   mesh_vertices,
   mesh_triangles,
   symmetry_discrete,
+  twins,
   grasps,
 };
-inline constexpr std::size_t bank_section_count = 16;
+inline constexpr std::size_t bank_section_count = 17;
 
 /// The section's name for messages.
 [[nodiscard]] const char* bank_section_name(BankSection section);

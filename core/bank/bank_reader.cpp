@@ -56,7 +56,8 @@ Status check_directory(const Directory& directory, std::string_view name) {
       sizeof(BankPart),      sizeof(PpfGrid),   sizeof(BankView),       sizeof(OrientedPoint),
       sizeof(std::uint32_t), sizeof(PpfEntry),  sizeof(std::uint32_t),  sizeof(std::uint32_t),
       sizeof(SurfacePoint),  sizeof(EdgePoint), sizeof(Vector3),        sizeof(std::uint64_t),
-      sizeof(Vector3),       sizeof(Triangle),  sizeof(RigidTransform), sizeof(PartGrasp)};
+      sizeof(Vector3),       sizeof(Triangle),  sizeof(RigidTransform), sizeof(RigidTransform),
+      sizeof(PartGrasp)};
   const std::uint64_t size = directory.file.size();
   for (std::size_t i = 0; i < bank_section_count; ++i) {
     const BankSectionRecord& record = directory.records[i];
@@ -106,6 +107,7 @@ Result<Bank> read_bank(std::span<const std::byte> bytes, std::string_view name) 
   bank.mesh = {section<Vector3>(directory, BankSection::mesh_vertices),
                section<Triangle>(directory, BankSection::mesh_triangles)};
   bank.symmetry_discrete = section<RigidTransform>(directory, BankSection::symmetry_discrete);
+  bank.twins = section<RigidTransform>(directory, BankSection::twins);
   bank.grasps = section<PartGrasp>(directory, BankSection::grasps);
 
   if (const char* fault = find_bank_fault(bank); fault != nullptr) {

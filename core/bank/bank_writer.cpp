@@ -25,7 +25,7 @@ void append(std::vector<std::byte>& file, std::array<BankSectionRecord, bank_sec
 
 std::vector<std::byte> write_bank(const Bank& bank) {
   // A section is written as it lies in memory, so padding would carry chance bytes into the file.
-  static_assert(sizeof(BankPart) == 184 && sizeof(BankView) == 32 && sizeof(PartGrasp) == 76);
+  static_assert(sizeof(BankPart) == 188 && sizeof(BankView) == 32 && sizeof(PartGrasp) == 76);
   static_assert(sizeof(OrientedPoint) == 24 && sizeof(SurfacePoint) == 24 && sizeof(EdgePoint) == 24);
   static_assert(sizeof(RigidTransform) == 48 && sizeof(Triangle) == 12 && sizeof(PpfGrid) == 12);
 
@@ -46,6 +46,7 @@ std::vector<std::byte> write_bank(const Bank& bank) {
   append(file, records, BankSection::mesh_vertices, bank.mesh.vertices);
   append(file, records, BankSection::mesh_triangles, bank.mesh.triangles);
   append(file, records, BankSection::symmetry_discrete, bank.symmetry_discrete);
+  append(file, records, BankSection::twins, bank.twins);
   append(file, records, BankSection::grasps, bank.grasps);
 
   BankHeader header;

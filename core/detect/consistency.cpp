@@ -7,7 +7,11 @@ namespace graspd {
 Consistency scene_consistency(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part, int points,
                               float tolerance) {
   Consistency result;
-  for_each_visible(bank, camera_from_part, points, [&](const SurfacePoint& surface) {
+  const std::span<const std::uint64_t> row = visible_row(bank, camera_from_part);
+  int shown = 0;
+  for (const std::uint64_t word : row) shown += std::popcount(word);
+  result.shown = static_cast<float>(shown) / static_cast<float>(bank.surface.size());
+  for_each_of_row(bank, row, points, [&](const SurfacePoint& surface) {
     ++result.facing;
     const Vector3 point = camera_from_part * surface.position;
     const MapCell* cell = map.look_up(point);

@@ -17,12 +17,15 @@ struct Consistency {
   int behind = 0;      ///< The scene lies behind them: they stand in free space.
   int occluded = 0;    ///< The scene lies in front of them.
   int unmeasured = 0;  ///< The sensor saw nothing there, or they fall outside the image.
+  float shown = 0;     ///< Share of the part's surface that the pose turns to the sensor.
 
-  /// A rough measure of how likely the pose is, in [-1, 1].
+  /// A rough measure of how likely the pose is, in [-1, 1]. That all of a small side agrees says less than that all of
+  /// a large one does: small sides fit in many places.
   [[nodiscard]] float score() const {
-    return facing == 0
-               ? -1.0F
-               : (static_cast<float>(confirmed) - 0.7F * static_cast<float>(behind)) / static_cast<float>(facing);
+    if (facing == 0) return -1.0F;
+    const float share =
+        (static_cast<float>(confirmed) - 0.7F * static_cast<float>(behind)) / static_cast<float>(facing);
+    return share * std::sqrt(shown);
   }
 };
 

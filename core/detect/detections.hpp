@@ -27,6 +27,10 @@ inline constexpr std::size_t rejection_count = 10;
 /// A name for logs and tables, in lower case.
 [[nodiscard]] const char* rejection_name(Rejection rejection);
 
+/// Lengths and areas in evidence are counted in this share of the diameter and its square, so that they mean the same
+/// however finely a part is sampled.
+inline constexpr float evidence_unit = 0.04F;
+
 /// The figures on which a hypothesis is judged; shares in [0, 1].
 struct Evidence {
   float overlap = 0;    ///< Confirmed share of the surface that should be seen and was measured.
@@ -35,14 +39,14 @@ struct Evidence {
   float measured = 0;   ///< Share of that surface for which the sensor saw anything.
   float boundary = 0;   ///< Share of the model that stands where the scene shows free space.
   float edge = 0;       ///< Share of the decided outline that agrees with the scene.
-  float outline = 0;    ///< Length of the outline, in voxel edges.
+  float outline = 0;    ///< Length of the outline, in units.
   float lock = 0;       ///< How firmly the confirmed normals hold the pose: 0 for a plane or a cylinder, at most 1.
-  float blur = 0;       ///< How far the sensor smears depth steps: 0 sharp, 1 over half a voxel and more.
-  float gap = 0;        ///< Area with free space where the model stands, without its seam, in voxel faces.
+  float blur = 0;       ///< How far the sensor smears depth steps: 0 sharp, 1 nearly a detail and more.
+  float gap = 0;        ///< Area with free space where the model stands, without its seam, in units.
   float below = 0;      ///< Share of the model below the plane or inside accepted instances.
   float residual = 0;   ///< Root mean square distance of confirmed points, in voxels of the bank
   float misfit = 0;     ///< and as a share of what is tolerated of this sensor.
-  float confirmed = 0;  ///< Area that confirms the model, in voxel faces of the bank seen from the sensor.
+  float confirmed = 0;  ///< Area that confirms the model as seen from the sensor, in units.
 };
 
 /// A part found, or a hypothesis that was rejected.

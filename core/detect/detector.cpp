@@ -8,6 +8,7 @@
 #include "core/detect/refine.hpp"
 #include "core/detect/score.hpp"
 #include "core/detect/spread.hpp"
+#include "core/detect/twin_hypotheses.hpp"
 #include "core/detect/verify.hpp"
 
 namespace graspd {
@@ -110,8 +111,8 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
   if (request.banks.empty()) return {};
   StageClock clock(request, detections);
 
-  float finest = request.banks.front().part->sampling;
-  for (const Bank& bank : request.banks) finest = std::min(finest, bank.part->sampling);
+  float finest = request.banks.front().part->detail;
+  for (const Bank& bank : request.banks) finest = std::min(finest, bank.part->detail);
   const Scene scene =
       preprocess(frame, request.empty_bin, finest, parameters.preprocess, parameters.threads, workspace.preprocess);
   detections.measured_pixels = scene.measured_pixels;
@@ -153,12 +154,21 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     refine_coarsely(scene.map, scene.edges, bank, parameters.refine, parameters.threads, workspace.clusters);
     record(request.trace, b, TracedStage::aligned, workspace.clusters);
     keep_distinct(bank, parameters.refine, workspace.clusters);
+    const int looked_up = 2 * parameters.refine.coarse_points;
+    const float tolerance = 0.6F * bank.part->detail;
+    keep_spread(scene.map, bank, {parameters.refine.closer, parameters.refine.closer_per_place, looked_up, tolerance},
+                workspace.select.claimed, workspace.clusters);
+    refine_closely(scene.map, scene.edges, bank, parameters.refine, parameters.threads, workspace.clusters.span());
+    sort_by_score(workspace.clusters);
+    keep_distinct(bank, parameters.refine, workspace.clusters);
     // Each part gets its share of the memory, whatever came before it.
     const std::size_t share = workspace.capacity.judged / request.banks.size();
     keep_spread(scene.map, bank,
                 {std::min(parameters.refine.judged, static_cast<int>(share)), parameters.refine.judged_per_place,
-                 2 * parameters.refine.coarse_points, 0.6F * bank.part->sampling},
+                 looked_up, tolerance},
                 workspace.select.claimed, workspace.clusters);
+    add_twins(scene.map, scene.edges, bank, parameters.refine, parameters.threads, workspace.clusters);
+    keep_distinct(bank, parameters.refine, workspace.clusters);
     record(request.trace, b, TracedStage::distinct, workspace.clusters);
     clock.end_of(Stage::refine);
 

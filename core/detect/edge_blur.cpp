@@ -9,11 +9,11 @@ namespace graspd {
 namespace {
 
 constexpr std::uint32_t fewest_steps = 100;
-/// Steps, in voxels: less may be a slope of the part, more is no neighbour of the part.
-constexpr float lowest_step = 3.0F;
-constexpr float highest_step = 15.0F;
-/// Half the width that a smeared step may have, in voxels.
-constexpr float reach_voxels = 1.5F;
+/// Steps, in details: less may be a slope of the part, more is no neighbour of the part.
+constexpr float lowest_step = 5.0F;
+constexpr float highest_step = 25.0F;
+/// Half the width that a smeared step may have, in details.
+constexpr float reach_details = 2.5F;
 
 struct BlurSum {
   double width = 0;  ///< Metres.
@@ -22,13 +22,13 @@ struct BlurSum {
 
 /// Takes the step around pixel `centre` of a line of pixels `pitch` apart, when there is one between two surfaces that
 /// face the sensor.
-void take_step(const float* centre, std::ptrdiff_t pitch, int reach, float sampling, float focal_length, BlurSum& sum) {
+void take_step(const float* centre, std::ptrdiff_t pitch, int reach, float detail, float focal_length, BlurSum& sum) {
   const auto at = [&](int k) { return centre[k * pitch]; };
   const float before = at(-reach);
   const float after = at(reach);
   if (before <= 0.0F || after <= 0.0F) return;
   const float step = after - before;
-  if (std::abs(step) < lowest_step * sampling || std::abs(step) > highest_step * sampling) return;
+  if (std::abs(step) < lowest_step * detail || std::abs(step) > highest_step * detail) return;
   const float flat = 0.15F * std::abs(step);
   const auto goes_on = [&](int k, float depth) { return at(k) > 0.0F && std::abs(at(k) - depth) < flat; };
   if (!goes_on(-2 * reach, before) || !goes_on(2 * reach, after)) return;
@@ -43,12 +43,12 @@ void take_step(const float* centre, std::ptrdiff_t pitch, int reach, float sampl
 
 }  // namespace
 
-float measure_edge_blur(const DepthFrame& frame, float sampling) {
+float measure_edge_blur(const DepthFrame& frame, float detail) {
   constexpr int line_step = 4;
   const Camera& camera = frame.camera;
   BlurSum sum;
   const auto reach_at = [&](float depth) {
-    return std::max(3, static_cast<int>(std::lround(reach_voxels * sampling * camera.fx / depth)));
+    return std::max(3, static_cast<int>(std::lround(reach_details * detail * camera.fx / depth)));
   };
   const auto take_line = [&](int first_u, int first_v, int du, int dv, int length, float focal_length) {
     const std::ptrdiff_t pitch = du + static_cast<std::ptrdiff_t>(dv) * camera.width;
@@ -58,7 +58,7 @@ float measure_edge_blur(const DepthFrame& frame, float sampling) {
       if (depth <= 0.0F) continue;
       const int reach = reach_at(depth);
       if (k >= 2 * reach && k + 2 * reach < length)
-        take_step(line + k * pitch, pitch, reach, sampling, focal_length, sum);
+        take_step(line + k * pitch, pitch, reach, detail, focal_length, sum);
     }
   };
   for (int v = 0; v < camera.height; v += line_step) take_line(0, v, 1, 0, camera.width, camera.fx);

@@ -28,9 +28,9 @@ float typical_depth(const DepthFrame& frame) {
   return 0.5F * (low + high);
 }
 
-int stride_for(const DepthFrame& frame, float sampling, float cells_per_voxel, std::size_t most_cells) {
-  const float voxel_pixels = sampling * frame.camera.fx / std::max(typical_depth(frame), 0.01F);
-  int stride = std::max(1, static_cast<int>(std::lround(voxel_pixels / cells_per_voxel)));
+int stride_for(const DepthFrame& frame, float detail, float cells_per_detail, std::size_t most_cells) {
+  const float detail_pixels = detail * frame.camera.fx / std::max(typical_depth(frame), 0.01F);
+  int stride = std::max(1, static_cast<int>(std::lround(detail_pixels / cells_per_detail)));
   while (make_scene_map(frame.camera, stride, {}).camera.pixel_count() > most_cells) ++stride;
   return stride;
 }
@@ -53,13 +53,13 @@ PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacit
   return workspace;
 }
 
-Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float sampling,
+Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float detail,
                  const PreprocessParameters& parameters, int threads, PreprocessWorkspace& workspace) {
   Scene scene;
-  const int stride = stride_for(frame, sampling, parameters.cells_per_voxel, workspace.map_cells.size());
+  const int stride = stride_for(frame, detail, parameters.cells_per_detail, workspace.map_cells.size());
   scene.map = make_scene_map(frame.camera, stride, workspace.map_cells);
   bin_frame(frame, threads, scene.map);
-  scene.map.edge_blur = measure_edge_blur(frame, sampling);
+  scene.map.edge_blur = measure_edge_blur(frame, detail);
 
   const bool by_frame = parameters.background == BackgroundMode::automatic && !empty_bin.depth.empty();
   if (by_frame) {
@@ -68,7 +68,7 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float sam
     remove_background_by_frame(empty_map, parameters.background_margin, threads, scene.map);
   } else if (parameters.background == BackgroundMode::automatic || parameters.background == BackgroundMode::plane) {
     scene.plane =
-        remove_background_by_plane(parameters.background_margin, parameters.plane_slack * sampling, threads, scene.map);
+        remove_background_by_plane(parameters.background_margin, parameters.plane_slack * detail, threads, scene.map);
   } else if (parameters.background == BackgroundMode::box) {
     remove_background_by_box(parameters.box_from_camera, parameters.box_half_size, threads, scene.map);
   }
@@ -76,14 +76,14 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float sam
     remove_background_by_box(parameters.region_from_camera, parameters.region_half_size, threads, scene.map);
   }
   if (parameters.segmentation) {
-    const auto cells = static_cast<std::uint32_t>(2.0F * parameters.cells_per_voxel * parameters.cells_per_voxel);
+    const auto cells = static_cast<std::uint32_t>(2.0F * parameters.cells_per_detail * parameters.cells_per_detail);
     (void)segment_foreground(cells, workspace.segments, scene.map);
   }
-  const int radius = std::clamp(static_cast<int>(std::lround(0.5F * parameters.cells_per_voxel)), 1, 4);
+  const int radius = std::clamp(static_cast<int>(std::lround(0.5F * parameters.cells_per_detail)), 1, 4);
   fit_normals(radius, threads, scene.map);
 
   scene.edges = {workspace.edges.nearest.first(scene.map.cells.size())};
-  find_depth_edges(scene.map, static_cast<int>(2.0F * parameters.cells_per_voxel), scene.edges);
+  find_depth_edges(scene.map, static_cast<int>(2.0F * parameters.cells_per_detail), scene.edges);
 
   for (const float depth : frame.depth) scene.measured_pixels += depth > 0.0F ? 1 : 0;
   for (const MapCell& cell : scene.map.cells) scene.foreground_cells += cell.foreground != 0 ? 1 : 0;

@@ -35,9 +35,9 @@ struct PreprocessWorkspace {
 [[nodiscard]] PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacity& capacity);
 
 /// Bins the frame, removes the background, splits the rest into segments, fits normals and
-/// finds edges (paper 2.4.1), at a resolution that suits a part sampled at `sampling` metres. `empty_bin` may have no
+/// finds edges (paper 2.4.1), at a resolution at which a part is judged by `detail` metres. `empty_bin` may have no
 /// depth.
-[[nodiscard]] Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float sampling,
+[[nodiscard]] Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float detail,
                                const PreprocessParameters& parameters, int threads, PreprocessWorkspace& workspace);
 
 /// The scene points that vote for a part sampled at `sampling`, in a grid for pairs up to `reach` apart.

@@ -121,23 +121,37 @@ RigidTransform refine_pose(const SceneMap& map, const DepthEdges& edges, const B
 
 void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
                      int threads, FixedVector<PoseCluster>& clusters) {
-  const float voxel = bank.part->sampling;
-  const IcpSchedule schedule{parameters.coarse_iterations, parameters.coarse_points, parameters.first_gate * voxel,
-                             parameters.coarse_gate * voxel, 0.0F};
+  const float detail = bank.part->detail;
+  const IcpSchedule schedule{parameters.coarse_iterations, parameters.coarse_points,
+                             parameters.first_gate * bank.part->sampling, parameters.coarse_gate * detail, 0.0F};
   const std::span<const EdgePoint> contour =
       parameters.edges && bank.part->edges_refine != 0 ? bank.edges : std::span<const EdgePoint>{};
   parallel_for(clusters.size(), threads, 4, [&](std::size_t k) {
     PoseCluster& cluster = clusters[k];
     cluster.camera_from_part = refine_pose(map, edges, bank, contour, cluster.camera_from_part, schedule);
     cluster.score =
-        scene_consistency(map, bank, cluster.camera_from_part, 2 * parameters.coarse_points, 0.6F * voxel).score();
+        scene_consistency(map, bank, cluster.camera_from_part, 2 * parameters.coarse_points, 0.6F * detail).score();
   });
   sort_by_score(clusters);
 }
 
+void refine_closely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
+                    int threads, std::span<PoseCluster> clusters) {
+  const float detail = bank.part->detail;
+  const IcpSchedule schedule{parameters.close_iterations, parameters.fine_points, parameters.coarse_gate * detail,
+                             parameters.last_gate * detail, 0.0F};
+  parallel_for(clusters.size(), threads, 4, [&](std::size_t k) {
+    PoseCluster& cluster = clusters[k];
+    cluster.camera_from_part = refine_pose(map, edges, bank, {}, cluster.camera_from_part, schedule);
+    cluster.score =
+        scene_consistency(map, bank, cluster.camera_from_part, parameters.fine_points, parameters.last_gate * detail)
+            .score();
+  });
+}
+
 void keep_distinct(const Bank& bank, const RefineParameters& parameters, FixedVector<PoseCluster>& clusters) {
   const Symmetry symmetry = bank.symmetry();
-  const float reach = parameters.same_translation * bank.part->sampling;
+  const float reach = parameters.same_translation * bank.part->detail;
   std::size_t kept = 0;
   for (std::size_t k = 0; k < clusters.size(); ++k) {
     const Vector3 centre = clusters[k].camera_from_part * bank.part->centre;
@@ -157,13 +171,13 @@ void keep_distinct(const Bank& bank, const RefineParameters& parameters, FixedVe
 RigidTransform refine_finely(const SceneMap& map, const DepthEdges& edges, const Bank& bank,
                              const RigidTransform& camera_from_part, const RefineParameters& parameters,
                              std::span<float> image) {
-  const float voxel = bank.part->sampling;
+  const float detail = bank.part->detail;
   std::array<EdgePoint, most_contour_points> contour;
   const bool edges_draw = parameters.edges && bank.part->edges_refine != 0;
   RigidTransform pose = camera_from_part;
   const IcpSchedule schedule{parameters.fine_iterations / std::max(parameters.fine_rounds, 1), parameters.fine_points,
-                             parameters.coarse_gate * voxel, parameters.last_gate * voxel,
-                             parameters.edge_gate * voxel};
+                             parameters.coarse_gate * detail, parameters.last_gate * detail,
+                             parameters.edge_gate * detail};
   for (int round = 0; round < parameters.fine_rounds; ++round) {
     const RenderedModel model = render_model(map, bank, pose, image, {});
     const std::size_t count = find_contour(map, model, pose, contour);

@@ -30,6 +30,11 @@ struct IcpSchedule {
 void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
                      int threads, FixedVector<PoseCluster>& clusters);
 
+/// Refines clusters closely, surfaces alone, rates them by their agreement within what verification tolerates, and puts
+/// the best first.
+void refine_closely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
+                    int threads, std::span<PoseCluster> clusters);
+
 /// Makes one of the clusters that have met, best first.
 void keep_distinct(const Bank& bank, const RefineParameters& parameters, FixedVector<PoseCluster>& clusters);
 

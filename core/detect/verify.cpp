@@ -119,12 +119,12 @@ float lock_of(const Matrix3& normal_scatter) {
   return std::clamp(3.0F * solver.eigenvalues().minCoeff(), 0.0F, 1.0F);
 }
 
-/// Whether the scene shows free space at (u, v) and a third of a voxel round it. Along a seam, where the pose is a
+/// Whether the scene shows free space at (u, v) and half a detail round it. Along a seam, where the pose is a
 /// little off or the sensor mixes both sides of an edge, that is so for a right pose too, but nowhere broadly.
-bool in_broad_gap(const SceneMap& map, const RenderedModel& model, int u, int v, float sampling, float tolerance) {
-  constexpr float share_of_voxel = 0.35F;
+bool in_broad_gap(const SceneMap& map, const RenderedModel& model, int u, int v, float detail, float tolerance) {
+  constexpr float share_of_detail = 0.6F;
   const float front = model.front[model.camera.index(u, v)];
-  const int reach = std::max(1, static_cast<int>(std::lround(share_of_voxel * sampling / map.footprint(front))));
+  const int reach = std::max(1, static_cast<int>(std::lround(share_of_detail * detail / map.footprint(front))));
   return std::all_of(directions.begin(), directions.end(), [&](const auto& d) {
     const int x = u + reach * d[0];
     const int y = v + reach * d[1];
@@ -143,11 +143,11 @@ float share_inside(const SceneMap& map, const Bank& bank, const RigidTransform& 
   return static_cast<float>(std::max(inside, 1)) / static_cast<float>(bank.surface.size());
 }
 
-/// Evidence::blur for a part of this sampling (metres).
-float blur_of(const SceneMap& map, float sampling) {
-  constexpr float sharp = 0.1F;
-  constexpr float blurred = 0.5F;
-  return std::clamp((map.edge_blur / sampling - sharp) / (blurred - sharp), 0.0F, 1.0F);
+/// Evidence::blur for a part of this detail (metres).
+float blur_of(const SceneMap& map, float detail) {
+  constexpr float sharp = 0.17F;
+  constexpr float blurred = 0.83F;
+  return std::clamp((map.edge_blur / detail - sharp) / (blurred - sharp), 0.0F, 1.0F);
 }
 
 bool touches_border(const ImageRectangle& rectangle, const Camera& camera) {
@@ -158,9 +158,9 @@ bool touches_border(const ImageRectangle& rectangle, const Camera& camera) {
 }  // namespace
 
 float surface_tolerance(const SceneMap& map, const Bank& bank, const VerifyParameters& parameters) {
-  const float sampling = bank.part->sampling;
+  const float detail = bank.part->detail;
   const float widest = std::max(parameters.tolerance, parameters.blurred_tolerance);
-  return (parameters.tolerance + blur_of(map, sampling) * (widest - parameters.tolerance)) * sampling;
+  return (parameters.tolerance + blur_of(map, detail) * (widest - parameters.tolerance)) * detail;
 }
 
 RenderedModel render_model(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part,
@@ -222,7 +222,7 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
       if (rim && verdict.verdict == CellVerdict::behind) verdict.verdict = CellVerdict::unmeasured;
       counts[static_cast<std::size_t>(verdict.verdict)] += 1.0F;
       if (verdict.verdict == CellVerdict::behind)
-        gap += in_broad_gap(map, model, u, v, bank.part->sampling, tolerance) ? 1.0F : 0.0F;
+        gap += in_broad_gap(map, model, u, v, bank.part->detail, tolerance) ? 1.0F : 0.0F;
       if (verdict.verdict != CellVerdict::confirmed) continue;
       squares += verdict.distance * verdict.distance;
       if (cell.has_normal()) {
@@ -247,13 +247,14 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   evidence.purity = confirmed + against > 0.0F ? confirmed / (confirmed + against) : 0.0F;
   evidence.boundary = count(CellVerdict::behind) / rendered;
   evidence.below = below / rendered;
-  evidence.residual = confirmed > 0.0F ? std::sqrt(squares / confirmed) / bank.part->sampling : 0.0F;
-  evidence.misfit = evidence.residual * bank.part->sampling / tolerance;
-  const float voxel_cells = bank.part->sampling / map.footprint(depth_sum / rendered);
-  evidence.confirmed = confirmed / (voxel_cells * voxel_cells);
-  evidence.gap = gap / (voxel_cells * voxel_cells);
-  evidence.blur = blur_of(map, bank.part->sampling);
-  evidence.outline = static_cast<float>(outline.length) / voxel_cells;
+  const float residual = confirmed > 0.0F ? std::sqrt(squares / confirmed) : 0.0F;
+  evidence.residual = residual / bank.part->sampling;
+  evidence.misfit = residual / tolerance;
+  const float unit_cells = evidence_unit * bank.part->diameter / map.footprint(depth_sum / rendered);
+  evidence.confirmed = confirmed / (unit_cells * unit_cells);
+  evidence.gap = gap / (unit_cells * unit_cells);
+  evidence.blur = blur_of(map, bank.part->detail);
+  evidence.outline = static_cast<float>(outline.length) / unit_cells;
   evidence.lock = normal_count > 0.0F ? lock_of(normals / normal_count) : 0.0F;
   const int decided = parameters.edges && bank.part->edges_judge != 0 ? outline.consistent + outline.inconsistent : 0;
   evidence.edge = decided > 0 ? static_cast<float>(outline.consistent) / static_cast<float>(decided) : 1.0F;

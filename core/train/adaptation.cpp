@@ -43,13 +43,14 @@ Status make_bank(const PartDescription& part, Candidate& candidate) {
   return {};
 }
 
-/// The part with the symmetries that the bank has: to look for them once is enough.
+/// The part with the symmetries and twins that the bank has: to look for them once is enough.
 PartDescription with_symmetry_of(const Bank& bank, const PartDescription& part) {
   PartDescription known = part;
   known.symmetry_given = true;
   known.symmetry_discrete.assign(bank.symmetry_discrete.begin() + 1, bank.symmetry_discrete.end());
   known.symmetry_continuous = bank.part->symmetry_continuous != 0;
   known.symmetry_axis = bank.part->symmetry_axis;
+  known.twins.emplace(bank.twins.begin(), bank.twins.end());
   return known;
 }
 

@@ -16,6 +16,7 @@
 #include "core/train/surface_sampling.hpp"
 #include "core/train/symmetry_detection.hpp"
 #include "core/train/symmetry_group.hpp"
+#include "core/train/twins.hpp"
 #include "core/train/view_refinement.hpp"
 #include "core/train/view_sphere.hpp"
 #include "core/train/view_weights.hpp"
@@ -50,6 +51,7 @@ struct BankStorage {
   VisibilityRows visibility;
   Mesh mesh;
   SymmetryGroup symmetry;
+  std::vector<RigidTransform> twins;
 };
 
 /// What makes no sense in the parameters, or null.
@@ -57,6 +59,7 @@ const char* parameter_fault(const BankBuildParameters& p) {
   const auto within = [](float value, float low, float high) { return value >= low && value <= high; };
   if (!within(p.sampling, least_sampling, most_sampling))
     return "sampling must lie between 0.01 and 0.2 of the diameter";
+  if (!within(p.detail, 0.1F, 1.0F)) return "detail must lie between 0.1 and 1 of the sampling";
   if (p.angle_bins < 4 || p.angle_bins > 60) return "angle_bins must lie between 4 and 60";
   if (p.candidate_views < 6 || p.candidate_views > 2000) return "candidate_views must lie between 6 and 2000";
   if (p.maximum_views < 1 || p.maximum_view_points < 10) return "at least one view of 10 points is needed";
@@ -90,6 +93,7 @@ void describe_part(const PartDescription& part, const PartMesh& mesh, const Bank
   out.box_max = mesh.box_max;
   out.centre = 0.5F * (mesh.box_min + mesh.box_max);
   out.sampling = sampling_of(parameters, mesh) * mesh.diameter;
+  out.detail = parameters.detail * out.sampling;
   out.thresholds = part.thresholds;
   out.edges_refine = parameters.edges_refine ? 1 : 0;
   out.edges_judge = parameters.edges_judge ? 1 : 0;
@@ -202,6 +206,7 @@ Bank bank_over(const BankStorage& storage, const PartDescription& part) {
                      static_cast<std::uint32_t>(storage.visibility.words_per_row)};
   bank.mesh = storage.mesh.view();
   bank.symmetry_discrete = storage.symmetry.discrete;
+  bank.twins = storage.twins;
   bank.grasps = part.grasps;
   return bank;
 }
@@ -246,6 +251,7 @@ Result<std::vector<std::byte>> learn_bank(const PartDescription& part, std::vect
 
   BankStorage storage;
   storage.symmetry = settle_symmetry(part, mesh, report);
+  storage.twins = part.twins.has_value() ? *part.twins : find_twins(mesh.mesh, storage.symmetry, mesh.diameter);
   describe_part(part, mesh, parameters, storage);
   progress(0.2F);
 
@@ -262,8 +268,9 @@ Result<std::vector<std::byte>> learn_bank(const PartDescription& part, std::vect
   add_surface(mesh, occluder.view(), conditions, candidates, parameters, storage);
   progress(0.6F);
   if (!rendered) drop_rendered(candidates);
+  const SurfaceIndex samples(candidates.samples, voxel);
   if (!cut_outs.empty()) {
-    for (CutOut& cut : cut_outs) align_to_surface(candidates.samples, voxel, cut);
+    for (CutOut& cut : cut_outs) lay_on(samples, voxel, cut);
     add_cut_outs(std::move(cut_outs), occluder.view(), conditions, storage.symmetry, 0.6F * voxel, candidates);
   }
   progress(0.7F);
@@ -274,7 +281,6 @@ Result<std::vector<std::byte>> learn_bank(const PartDescription& part, std::vect
       parameters.full_model ? whole_part(candidates, report)
                             : refine_views(candidates, storage.symmetry, weights, mesh.diameter, parameters, report);
   const GeneralisationSettings generalisation{parameters.generalisation, voxel, storage.part.centre};
-  const SurfaceIndex samples(candidates.samples, voxel);
   std::vector<GeneralisedView> views;
   for (const RefinedView& view : refined) {
     views.push_back(generalise_view(view, candidates, samples, storage.symmetry, generalisation));

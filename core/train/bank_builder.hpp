@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct PartDescription {
   std::vector<RigidTransform> symmetry_discrete;  ///< part_from_part, without the identity.
   bool symmetry_continuous = false;
   SymmetryAxis symmetry_axis;
+  std::optional<std::vector<RigidTransform>> twins;  ///< Of find_twins(); none: the builder looks for them.
   std::vector<PartGrasp> grasps;
   VerifyThresholds thresholds;
 };
@@ -38,6 +40,7 @@ enum class Generalisation : std::uint8_t {
 /// How a bank is made.
 struct BankBuildParameters {
   float sampling = 0.05F;     ///< Voxel edge of the view points, as a share of the diameter.
+  float detail = 0.6F;        ///< Length at which poses are refined and judged, as a share of that edge.
   int angle_bins = 12;        ///< 15 degrees, as in the paper.
   int candidate_views = 162;  ///< Directions of the view sphere that are rendered.
   int maximum_views = 16;     ///< Kept after refinement.

@@ -3,18 +3,15 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/geometry/depth_render.hpp"
-#include "core/geometry/symmetric_matrix.hpp"
-#include "core/train/surface_index.hpp"
+#include "core/train/alignment.hpp"
 
 namespace graspd {
 
 namespace {
 
 constexpr int least_neighbours = 6;
-constexpr int alignment_steps = 8;
 
 /// The crop of a frame that a posed part may cover.
 struct Crop {
@@ -102,52 +99,10 @@ CutOut cut_out(const DepthFrame& frame, const RigidTransform& camera_from_part, 
   return view;
 }
 
-float align_to_surface(std::span<const OrientedPoint> surface, float reach, CutOut& view) {
-  using Vector6 = Eigen::Matrix<float, 6, 1>;
-  using Matrix6 = Eigen::Matrix<float, 6, 6>;
-  const SurfaceIndex index(surface, reach);
-  Vector3 middle = Vector3::Zero();
-  for (const OrientedPoint& point : view.points) middle += point.position / static_cast<float>(view.points.size());
-  float length = 0.0F;
-  for (const OrientedPoint& point : view.points) length = std::max(length, (point.position - middle).norm());
-  RigidTransform aligned;
-  RigidTransform best;
-  float best_error = std::numeric_limits<float>::infinity();
-  for (int i = 0; i <= alignment_steps; ++i) {
-    Matrix6 hessian = Matrix6::Zero();
-    Vector6 gradient = Vector6::Zero();
-    float squares = 0.0F;
-    std::size_t count = 0;
-    for (const OrientedPoint& point : view.points) {
-      const OrientedPoint moved = aligned * point;
-      const OrientedPoint& target = surface[index.nearest(moved)];
-      const float distance = target.normal.dot(moved.position - target.position);
-      if ((moved.position - target.position).norm() > reach) continue;
-      Vector6 row;
-      row << ((moved.position - middle) / length).cross(target.normal), target.normal;
-      hessian += row * row.transpose();
-      gradient += row * distance;
-      squares += distance * distance;
-      ++count;
-    }
-    if (count < 6) break;
-    const float error = std::sqrt(squares / static_cast<float>(count));
-    if (error >= best_error) break;
-    best_error = error;
-    best = aligned;
-    // What the view does not fix stays where the pose put it.
-    hessian += Matrix6::Identity() * (1e-3F * hessian.trace() / 6.0F);
-    const Vector6 step = solved(hessian.cast<double>(), -gradient.cast<double>()).cast<float>();
-    const Vector3 turn = step.head<3>() / length;
-    RigidTransform move;
-    if (turn.norm() > 0.0F) move.rotation = Eigen::AngleAxisf(turn.norm(), turn.normalized()).toRotationMatrix();
-    move.translation = middle + step.tail<3>() - move.rotation * middle;
-    aligned = move * aligned;
-  }
-  if (!std::isfinite(best_error)) return best_error;
-  for (OrientedPoint& point : view.points) point = best * point;
-  view.direction = best.rotation * view.direction;
-  return best_error;
+void lay_on(const SurfaceIndex& surface, float reach, CutOut& view) {
+  const RigidTransform moved = align_to_surface(surface, view.points, {}, reach).surface_from_points;
+  for (OrientedPoint& point : view.points) point = moved * point;
+  view.direction = moved.rotation * view.direction;
 }
 
 }  // namespace graspd

@@ -6,6 +6,7 @@
 #include "core/geometry/depth_frame.hpp"
 #include "core/geometry/mesh.hpp"
 #include "core/geometry/oriented_point.hpp"
+#include "core/train/surface_index.hpp"
 
 namespace graspd {
 
@@ -30,9 +31,8 @@ struct CutOutParameters {
 [[nodiscard]] CutOut cut_out(const DepthFrame& frame, const RigidTransform& camera_from_part, const MeshView& mesh,
                              const Vector3& centre, const CutOutParameters& parameters);
 
-/// Moves the points of `view` onto the part's surface by point-to-plane ICP, so that errors of the poses they were cut
-/// out at do not blur what is fused from them. `surface` holds points of the part; steps that do not bring the points
-/// nearer are not taken. Returns the root mean square distance left (metres).
-float align_to_surface(std::span<const OrientedPoint> surface, float reach, CutOut& view);
+/// Moves the points of `view` onto the part's surface, so that errors of the poses they were cut out at do not blur
+/// what is fused from them. Points farther than `reach` (metres) away take no part in that.
+void lay_on(const SurfaceIndex& surface, float reach, CutOut& view);
 
 }  // namespace graspd

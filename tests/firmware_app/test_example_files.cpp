@@ -119,7 +119,11 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(detect.parameters.match.peaks_per_reference);
   GRASPD_COMPARE(detect.parameters.match.minimum_peak_share);
   GRASPD_COMPARE(detect.parameters.cluster.plausible);
+  GRASPD_COMPARE(detect.parameters.refine.closer);
   GRASPD_COMPARE(detect.parameters.refine.judged);
+  GRASPD_COMPARE(detect.parameters.refine.closer_per_place);
+  GRASPD_COMPARE(detect.parameters.refine.judged_per_place);
+  GRASPD_COMPARE(detect.parameters.refine.twins);
   GRASPD_COMPARE(detect.parameters.verify.tolerance);
   GRASPD_COMPARE(detect.parameters.verify.blurred_tolerance);
   GRASPD_COMPARE(detect.parameters.verify.minimum_measured);

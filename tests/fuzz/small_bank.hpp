@@ -18,6 +18,7 @@ inline std::vector<std::byte> small_bank_file() {
   part.box_min = Vector3(-0.020F, -0.015F, -0.010F);
   part.box_max = -part.box_min;
   part.sampling = 0.005F;
+  part.detail = 0.003F;
 
   const std::vector<Vector3> corners{{-0.02F, -0.015F, -0.01F}, {0.02F, -0.015F, -0.01F}, {0.02F, 0.015F, -0.01F},
                                      {-0.02F, 0.015F, -0.01F},  {-0.02F, -0.015F, 0.01F}, {0.02F, -0.015F, 0.01F},

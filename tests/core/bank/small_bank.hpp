@@ -29,6 +29,7 @@ struct SmallBank {
   std::array<Vector3, 4> vertices{Vector3::Zero(), Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
   std::array<Triangle, 4> triangles{Triangle{0, 2, 1}, Triangle{0, 1, 3}, Triangle{0, 3, 2}, Triangle{1, 2, 3}};
   std::array<RigidTransform, 2> symmetries;
+  std::array<RigidTransform, 1> twins;
   std::array<PartGrasp, 1> grasps;
 
   SmallBank() {
@@ -36,6 +37,7 @@ struct SmallBank {
     part.part_id = 7;
     part.diameter = 1.5F;
     part.sampling = 0.05F;
+    part.detail = 0.03F;
     part.box_max = Vector3::Ones();
     views[0].point_count = 3;
     views[0].reference_count = 2;
@@ -62,6 +64,7 @@ struct SmallBank {
     bank.visibility = {directions, bits, 2};
     bank.mesh = {vertices, triangles};
     bank.symmetry_discrete = symmetries;
+    bank.twins = twins;
     bank.grasps = grasps;
     return bank;
   }

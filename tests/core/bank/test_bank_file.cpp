@@ -165,6 +165,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"measures", [](SmallBank& b) { b.part.sampling = not_a_number; }},
                     Fault{"measures", [](SmallBank& b) { b.part.centre.x() = not_a_number; }},
                     Fault{"contradict each other", [](SmallBank& b) { b.part.sampling = 1e-30F; }},
+                    Fault{"detail contradict", [](SmallBank& b) { b.part.detail = 2.0F * b.part.sampling; }},
+                    Fault{"detail contradict", [](SmallBank& b) { b.part.detail = not_a_number; }},
                     Fault{"contradict each other", [](SmallBank& b) { b.part.sampling = 2.0F * b.part.diameter; }},
                     Fault{"contradict each other", [](SmallBank& b) { b.part.diameter = 1e30F; }},
                     Fault{"symmetry axis", [](SmallBank& b) { b.part.symmetry_axis.direction *= 2; }},
@@ -203,6 +205,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"vertex that is not there", [](SmallBank& b) { b.triangles[1][2] = 4; }},
                     Fault{"begin with the identity", [](SmallBank& b) { b.symmetries[0] = b.symmetries[1]; }},
                     Fault{"a symmetry is not", [](SmallBank& b) { b.symmetries[1].rotation *= 1.1F; }},
+                    Fault{"a twin is not", [](SmallBank& b) { b.twins[0].rotation *= 1.1F; }},
                     Fault{"a symmetry is not", [](SmallBank& b) { b.symmetries[1].rotation.col(0) *= -1.0F; }},
                     Fault{"a grasp is of no known kind", [](SmallBank& b) { b.grasps[0].opening = not_a_number; }}));
 

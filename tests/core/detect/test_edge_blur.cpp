@@ -8,7 +8,7 @@
 namespace graspd {
 namespace {
 
-constexpr float sampling = 0.004F;
+constexpr float detail = 0.0024F;
 
 /// Plateaus 20 mm high and 40 mm apart, their flanks `flank` pixels wide in the image.
 struct Plateaus {
@@ -30,23 +30,23 @@ struct Plateaus {
   [[nodiscard]] DepthFrame frame() { return {camera, depth, 0, 0}; }
 };
 
-TEST(EdgeBlur, IsNothingForStepsFromPixelToPixel) { EXPECT_EQ(measure_edge_blur(Plateaus(0).frame(), sampling), 0.0F); }
+TEST(EdgeBlur, IsNothingForStepsFromPixelToPixel) { EXPECT_EQ(measure_edge_blur(Plateaus(0).frame(), detail), 0.0F); }
 
 TEST(EdgeBlur, IsTheWidthBetweenTheSurfaces) {
   // Six tenths of ten pixels of one millimetre lie between a fifth and four fifths of the step.
-  EXPECT_NEAR(measure_edge_blur(Plateaus(10).frame(), sampling), 0.006F, 0.0012F);
-  EXPECT_NEAR(measure_edge_blur(Plateaus(5).frame(), sampling), 0.003F, 0.0012F);
+  EXPECT_NEAR(measure_edge_blur(Plateaus(10).frame(), detail), 0.006F, 0.0012F);
+  EXPECT_NEAR(measure_edge_blur(Plateaus(5).frame(), detail), 0.003F, 0.0012F);
 }
 
 TEST(EdgeBlur, LooksAtStepsOfThePartsSizeOnly) {
-  EXPECT_EQ(measure_edge_blur(Plateaus(10, 0.005F).frame(), sampling), 0.0F);
-  EXPECT_EQ(measure_edge_blur(Plateaus(10, 0.1F).frame(), sampling), 0.0F);
+  EXPECT_EQ(measure_edge_blur(Plateaus(10, 0.005F).frame(), detail), 0.0F);
+  EXPECT_EQ(measure_edge_blur(Plateaus(10, 0.1F).frame(), detail), 0.0F);
 }
 
 TEST(EdgeBlur, IsNothingWhereNothingWasMeasuredBetweenTheSurfaces) {
   Plateaus plateaus(10);
   for (float& z : plateaus.depth) z = z > 0.4801F && z < 0.4999F ? 0.0F : z;
-  EXPECT_EQ(measure_edge_blur(plateaus.frame(), sampling), 0.0F);
+  EXPECT_EQ(measure_edge_blur(plateaus.frame(), detail), 0.0F);
 }
 
 TEST(EdgeBlur, DoesNotGuessFromAFewSteps) {
@@ -54,7 +54,7 @@ TEST(EdgeBlur, DoesNotGuessFromAFewSteps) {
   for (int v = 4; v < plateaus.camera.height; ++v) {
     for (int u = 0; u < plateaus.camera.width; ++u) plateaus.depth[plateaus.camera.index(u, v)] = 0;
   }
-  EXPECT_EQ(measure_edge_blur(plateaus.frame(), sampling), 0.0F);
+  EXPECT_EQ(measure_edge_blur(plateaus.frame(), detail), 0.0F);
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ TEST(CutOut, AlignmentTakesOutTheErrorOfAPose) {
     return sum / static_cast<float>(view.points.size());
   };
   const float before = error();
-  align_to_surface(surface, 0.004F, view);
+  lay_on(SurfaceIndex(surface, 0.004F), 0.004F, view);
   EXPECT_LT(error(), 0.4F * before);
 }
 
