@@ -12,7 +12,7 @@
 #include "firmware_app/bench_picture.hpp"
 #include "firmware_app/bench_report.hpp"
 #include "firmware_app/commands.hpp"
-#include "firmware_app/configuration_switches.hpp"
+#include "firmware_app/detect_switches.hpp"
 #include "firmware_app/frame_file_switches.hpp"
 #include "firmware_app/progress_bar.hpp"
 

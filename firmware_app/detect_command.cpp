@@ -9,7 +9,7 @@
 #include "drivers/files/detection_picture.hpp"
 #include "drivers/system/clock.hpp"
 #include "firmware_app/commands.hpp"
-#include "firmware_app/configuration_switches.hpp"
+#include "firmware_app/detect_switches.hpp"
 #include "firmware_app/detection_report.hpp"
 #include "firmware_app/detection_session.hpp"
 #include "firmware_app/drawn_grasps.hpp"

@@ -1,4 +1,4 @@
-#include "firmware_app/configuration_switches.hpp"
+#include "firmware_app/detect_switches.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
