@@ -53,9 +53,11 @@ Middles middles_of(std::span<const OrientedPoint> surface) {
 
 /// Turns about each principal axis, and half turns about axes across them; of each, about both middles: the ends of a
 /// part meet when its box is turned, its bulk when its surface is.
-std::vector<RigidTransform> starts(const Middles& middles) {
+std::vector<RigidTransform> starts(const Middles& middles, float diameter) {
   std::vector<RigidTransform> result;
-  for (const Vector3& middle : {middles.of_surface, middles.of_box}) {
+  std::vector<Vector3> centres{middles.of_surface};
+  if ((middles.of_box - middles.of_surface).norm() > 0.01F * diameter) centres.push_back(middles.of_box);
+  for (const Vector3& middle : centres) {
     for (int a = 0; a < 3; ++a) {
       const Vector3 along = middles.axes.col(a);
       const Vector3 across = middles.axes.col((a + 1) % 3);
@@ -80,12 +82,12 @@ std::vector<OrientedPoint> spread_points(std::span<const OrientedPoint> surface,
 }  // namespace
 
 std::vector<RigidTransform> find_twins(const Mesh& mesh, const SymmetryGroup& group, float diameter) {
-  const std::vector<OrientedPoint> surface = sample_surface(mesh, smooth_corner_normals(mesh, pi / 6.0F), 10000);
+  const std::vector<OrientedPoint> surface = sample_surface(mesh, smooth_corner_normals(mesh, pi / 6.0F), 6000);
   const SurfaceIndex index(surface, 0.1F * diameter);
-  const std::vector<OrientedPoint> probes = spread_points(surface, 1000, diameter);
-  const std::span<const OrientedPoint> few = std::span(probes).first(std::min<std::size_t>(200, probes.size()));
+  const std::vector<OrientedPoint> probes = spread_points(surface, 400, diameter);
+  const std::span<const OrientedPoint> few = std::span(probes).first(std::min<std::size_t>(80, probes.size()));
   const Middles middles = middles_of(surface);
-  const std::vector<RigidTransform> tries = starts(middles);
+  const std::vector<RigidTransform> tries = starts(middles, diameter);
 
   std::vector<Likeness> found(tries.size());
 #pragma omp parallel for schedule(dynamic)
@@ -94,7 +96,8 @@ std::vector<RigidTransform> find_twins(const Mesh& mesh, const SymmetryGroup& gr
     found[i] = {tries[i], self_distance(index, probes, tries[i], diameter).mean};
     if (found[i].distance < alike) continue;
     const Alignment rough = align_to_surface(index, few, tries[i], 0.15F * diameter);
-    const Alignment close = align_to_surface(index, few, rough.surface_from_points, 0.05F * diameter);
+    if (self_distance(index, few, rough.surface_from_points, diameter).mean > 2.0F * alike) continue;
+    const Alignment close = align_to_surface(index, probes, rough.surface_from_points, 0.05F * diameter);
     found[i] = {close.surface_from_points, self_distance(index, probes, close.surface_from_points, diameter).mean};
   }
   std::stable_sort(found.begin(), found.end(),

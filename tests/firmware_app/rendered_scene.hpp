@@ -57,6 +57,7 @@ inline std::vector<std::byte> angle_bar_bank(std::uint32_t part_id = 7, float sa
   part.part_id = part_id;
   part.mesh = angle_bar();
   part.symmetry_given = true;
+  part.twins.emplace();
   part.grasps.push_back(angle_bar_grasp());
   BankBuildParameters build;
   build.candidate_views = 42;

@@ -44,6 +44,7 @@ class BracketBank {
     part.part_id = 1;
     part.mesh = bracket_mesh();
     part.symmetry_given = true;
+    part.twins.emplace();
     RigidTransform tool;
     tool.rotation << 1.0F, 0.0F, 0.0F, 0.0F, -1.0F, 0.0F, 0.0F, 0.0F, -1.0F;
     tool.translation = Vector3(0.003F, 0.020F, 0.025F);

@@ -14,6 +14,7 @@ PartDescription bracket() {
   part.name = "bracket";
   part.mesh = shapes::bracket();
   part.symmetry_given = true;
+  part.twins.emplace();
   return part;
 }
 

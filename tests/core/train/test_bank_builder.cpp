@@ -27,6 +27,7 @@ PartDescription described(const Mesh& mesh) {
   part.part_id = 3;
   part.mesh = mesh;
   part.symmetry_given = true;
+  part.twins.emplace();
   return part;
 }
 
@@ -123,6 +124,14 @@ TEST(BankBuilder, SymmetriesAreFoundAndSaidWhenNotGiven) {
   EXPECT_EQ(bank.symmetry_discrete.size(), 2U);
   EXPECT_LE(bank.views.size(), 2U);
   EXPECT_GT(report.views_degenerate, 0);
+}
+
+TEST(BankBuilder, TwinsAreLookedForWhenNotKnown) {
+  PartDescription part = described(shapes::box(0.06F, 0.04F, 0.02F));
+  part.twins.reset();
+  BankReport report;
+  const auto file = built(part, report);
+  EXPECT_EQ(read_bank(file, "box").value().twins.size(), 3U) << "half turns, of which it was told nothing";
 }
 
 TEST(BankBuilder, ADoubtfulSymmetryIsRemarkedOn) {
