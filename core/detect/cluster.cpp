@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "core/detect/consistency.hpp"
-#include "core/detect/parallel_for.hpp"
 
 namespace graspd {
 
@@ -138,9 +137,10 @@ void sort_by_score(FixedVector<PoseCluster>& clusters) {
   });
 }
 
-void rate_plausibility(const SceneMap& map, const Bank& bank, int threads, FixedVector<PoseCluster>& clusters) {
+void rate_plausibility(const SceneMap& map, const Bank& bank, const Execution& execution,
+                       FixedVector<PoseCluster>& clusters) {
   constexpr int points = 100;
-  parallel_for(clusters.size(), threads, 16, [&](std::size_t k) {
+  parallel_for(clusters.size(), execution, 16, [&](std::size_t k) {
     clusters[k].score = scene_consistency(map, bank, clusters[k].camera_from_part, points, bank.part->sampling).score();
   });
   sort_by_score(clusters);

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/bank/bank.hpp"
+#include "core/detect/execution.hpp"
 #include "core/detect/match.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/detect/scene_map.hpp"
@@ -48,6 +49,7 @@ void cluster_hypotheses(std::span<const Hypothesis> hypotheses, const Bank& bank
 void sort_by_score(FixedVector<PoseCluster>& clusters);
 
 /// Rates the clusters by their agreement with the scene and puts the best first.
-void rate_plausibility(const SceneMap& map, const Bank& bank, int threads, FixedVector<PoseCluster>& clusters);
+void rate_plausibility(const SceneMap& map, const Bank& bank, const Execution& execution,
+                       FixedVector<PoseCluster>& clusters);
 
 }  // namespace graspd

@@ -33,10 +33,6 @@ class StageClock {
   Detections& detections_;
 };
 
-bool late(const DetectRequest& request) {
-  return request.now_ns != nullptr && request.deadline_ns != 0 && request.now_ns() >= request.deadline_ns;
-}
-
 Status check(const DepthFrame& frame, const DetectRequest& request, const DetectParameters& parameters,
              const DetectCapacity& capacity) {
   const auto fits = [&](const DepthFrame& candidate) {
@@ -85,17 +81,24 @@ Instance judge(const Scene& scene, const Bank& bank, std::uint32_t bank_index, c
   return instance;
 }
 
+/// Judges the clusters, those that agree best with the scene first, as long as there is time.
 void judge_clusters(const Scene& scene, const DetectRequest& request, std::uint32_t bank_index,
-                    const DetectParameters& parameters, DetectWorkspace& workspace, Detections& detections) {
+                    const DetectParameters& parameters, const Execution& execution, DetectWorkspace& workspace,
+                    Detections& detections) {
+  constexpr std::uint32_t nobody = 0xFFFFFFFFU;
   const std::size_t first = workspace.judged.size();
   const std::size_t count = std::min(workspace.clusters.size(), workspace.judged.capacity() - first);
   if (count < workspace.clusters.size()) detections.flags |= flag_hypotheses_cut;
   workspace.judged.assume_size(first + count);
-  parallel_for(count, parameters.threads, 2, [&](std::size_t i) {
+  for (std::size_t i = 0; i < count; ++i) workspace.judged[first + i].bank = nobody;
+  parallel_for(count, execution, 2, [&](std::size_t i) {
     const std::span<float> image = workspace.rendering[static_cast<std::size_t>(omp_get_thread_num())];
     workspace.judged[first + i] =
         judge(scene, request.banks[bank_index], bank_index, workspace.clusters[i], parameters, image);
   });
+  const Instance* end = std::remove_if(workspace.judged.begin() + first, workspace.judged.end(),
+                                       [](const Instance& instance) { return instance.bank == nobody; });
+  workspace.judged.truncate(static_cast<std::size_t>(end - workspace.judged.begin()));
 }
 
 }  // namespace
@@ -122,11 +125,9 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
 
   if (scene.measured_pixels == 0) return {StatusCode::bad_frame, "nothing in the frame was measured"};
 
-  for (std::uint32_t b = 0; b < request.banks.size(); ++b) {
-    if (late(request)) {
-      detections.flags |= flag_deadline;
-      break;
-    }
+  // What is late is left, whatever stage it has come to: only what was verified is an answer.
+  const Execution execution{parameters.threads, request.now_ns, request.deadline_ns};
+  for (std::uint32_t b = 0; b < request.banks.size() && !execution.late(); ++b) {
     const Bank& bank = request.banks[b];
     const float reach = bank.grid.distance_step * static_cast<float>(bank.grid.distance_bins);
     const NeighbourGrid points = sample_for(scene, bank.part->sampling, reach, workspace.preprocess);
@@ -134,31 +135,32 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     if (workspace.preprocess.samples.dropped() > 0) detections.flags |= flag_scene_points_cut;
     clock.end_of(Stage::preprocess);
 
-    detections.work.voting +=
-        match(points, bank, parameters.match, parameters.threads, workspace.match, workspace.hypotheses);
+    detections.work.voting += match(points, bank, parameters.match, execution, workspace.match, workspace.hypotheses);
     detections.work.hypotheses += static_cast<std::uint32_t>(workspace.hypotheses.size());
     record(request.trace, b, TracedStage::voted, workspace.hypotheses);
     clock.end_of(Stage::match);
+    if (execution.late()) break;
 
     cluster_hypotheses(workspace.hypotheses.span(), bank, parameters.cluster, workspace.cluster, workspace.clusters);
     detections.work.clusters += static_cast<std::uint32_t>(workspace.clusters.size());
     if (workspace.clusters.dropped() > 0) detections.flags |= flag_hypotheses_cut;
-    rate_plausibility(scene.map, bank, parameters.threads, workspace.clusters);
+    rate_plausibility(scene.map, bank, execution, workspace.clusters);
     record(request.trace, b, TracedStage::clustered, workspace.clusters);
     keep_spread(scene.map, bank,
                 {parameters.cluster.plausible, parameters.cluster.plausible_per_place, 100, bank.part->sampling},
                 workspace.select.claimed, workspace.clusters);
     record(request.trace, b, TracedStage::plausible, workspace.clusters);
     clock.end_of(Stage::cluster);
+    if (execution.late()) break;
 
-    refine_coarsely(scene.map, scene.edges, bank, parameters.refine, parameters.threads, workspace.clusters);
+    refine_coarsely(scene.map, scene.edges, bank, parameters.refine, execution, workspace.clusters);
     record(request.trace, b, TracedStage::aligned, workspace.clusters);
     keep_distinct(bank, parameters.refine, workspace.clusters);
     const int looked_up = 2 * parameters.refine.coarse_points;
     const float tolerance = 0.6F * bank.part->detail;
     keep_spread(scene.map, bank, {parameters.refine.closer, parameters.refine.closer_per_place, looked_up, tolerance},
                 workspace.select.claimed, workspace.clusters);
-    refine_closely(scene.map, scene.edges, bank, parameters.refine, parameters.threads, workspace.clusters.span());
+    refine_closely(scene.map, scene.edges, bank, parameters.refine, execution, workspace.clusters.span());
     sort_by_score(workspace.clusters);
     keep_distinct(bank, parameters.refine, workspace.clusters);
     // Each part gets its share of the memory, whatever came before it.
@@ -167,16 +169,17 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
                 {std::min(parameters.refine.judged, static_cast<int>(share)), parameters.refine.judged_per_place,
                  looked_up, tolerance},
                 workspace.select.claimed, workspace.clusters);
-    add_twins(scene.map, scene.edges, bank, parameters.refine, parameters.threads, workspace.clusters);
+    add_twins(scene.map, scene.edges, bank, parameters.refine, execution, workspace.clusters);
     keep_distinct(bank, parameters.refine, workspace.clusters);
     record(request.trace, b, TracedStage::distinct, workspace.clusters);
     clock.end_of(Stage::refine);
+    if (execution.late()) break;
 
-    judge_clusters(scene, request, b, parameters, workspace, detections);
+    judge_clusters(scene, request, b, parameters, execution, workspace, detections);
     clock.end_of(Stage::verify);
   }
   detections.work.judged = static_cast<std::uint32_t>(workspace.judged.size());
-  if (late(request)) detections.flags |= flag_deadline;
+  if (execution.late()) detections.flags |= flag_deadline;
 
   detections.flags |=
       select_instances(scene.map, request.banks, parameters.verify, request.minimum_score, workspace.judged.span(),

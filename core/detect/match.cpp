@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/detect/parallel_for.hpp"
-
 namespace graspd {
 
 namespace {
@@ -159,8 +157,8 @@ MatchWorkspace carve_match_workspace(Arena& arena, const DetectCapacity& capacit
   return workspace;
 }
 
-VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParameters& parameters, int threads,
-                 MatchWorkspace& workspace, FixedVector<Hypothesis>& hypotheses) {
+VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParameters& parameters,
+                 const Execution& execution, MatchWorkspace& workspace, FixedVector<Hypothesis>& hypotheses) {
   hypotheses.clear();
   for (VotingScratch& scratch : workspace.threads) scratch.work = {};
   const std::size_t per_reference =
@@ -170,7 +168,8 @@ VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParame
   while ((scene.points.size() / step + 1) * per_reference > workspace.slots.size()) ++step;
   const std::size_t references = (scene.points.size() + step - 1) / step;
 
-  parallel_for(references, threads, 8, [&](std::size_t i) {
+  std::fill_n(workspace.slots_used.begin(), references, std::uint8_t{0});
+  parallel_for(references, execution, 8, [&](std::size_t i) {
     VotingScratch& scratch = workspace.threads[static_cast<std::size_t>(omp_get_thread_num())];
     std::fill_n(scratch.accumulator.begin(), bank.reference_points.size() * alpha_bins, std::uint16_t{0});
     if (++scratch.epoch == 0) {

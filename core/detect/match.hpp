@@ -5,6 +5,7 @@
 
 #include "core/bank/bank.hpp"
 #include "core/detect/detections.hpp"
+#include "core/detect/execution.hpp"
 #include "core/detect/neighbour_grid.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/memory/arena.hpp"
@@ -40,7 +41,7 @@ struct MatchWorkspace {
 /// Votes for poses of the bank's part, all views, around every reference point of the scene (Drost et
 /// al. 2010, over views as in paper 2.4; pairs that repeat a vote are skipped, Hinterstoisser et al.
 /// 2016). Several peaks are kept for each reference point. Returns what it took.
-VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParameters& parameters, int threads,
-                 MatchWorkspace& workspace, FixedVector<Hypothesis>& hypotheses);
+VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParameters& parameters,
+                 const Execution& execution, MatchWorkspace& workspace, FixedVector<Hypothesis>& hypotheses);
 
 }  // namespace graspd

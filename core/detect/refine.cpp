@@ -7,7 +7,6 @@
 
 #include "core/detect/consistency.hpp"
 #include "core/detect/contour.hpp"
-#include "core/detect/parallel_for.hpp"
 #include "core/detect/visible_surface.hpp"
 
 namespace graspd {
@@ -120,13 +119,13 @@ RigidTransform refine_pose(const SceneMap& map, const DepthEdges& edges, const B
 }
 
 void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
-                     int threads, FixedVector<PoseCluster>& clusters) {
+                     const Execution& execution, FixedVector<PoseCluster>& clusters) {
   const float detail = bank.part->detail;
   const IcpSchedule schedule{parameters.coarse_iterations, parameters.coarse_points,
                              parameters.first_gate * bank.part->sampling, parameters.coarse_gate * detail, 0.0F};
   const std::span<const EdgePoint> contour =
       parameters.edges && bank.part->edges_refine != 0 ? bank.edges : std::span<const EdgePoint>{};
-  parallel_for(clusters.size(), threads, 4, [&](std::size_t k) {
+  parallel_for(clusters.size(), execution, 4, [&](std::size_t k) {
     PoseCluster& cluster = clusters[k];
     cluster.camera_from_part = refine_pose(map, edges, bank, contour, cluster.camera_from_part, schedule);
     cluster.score =
@@ -136,11 +135,11 @@ void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& b
 }
 
 void refine_closely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
-                    int threads, std::span<PoseCluster> clusters) {
+                    const Execution& execution, std::span<PoseCluster> clusters) {
   const float detail = bank.part->detail;
   const IcpSchedule schedule{parameters.close_iterations, parameters.fine_points, parameters.coarse_gate * detail,
                              parameters.last_gate * detail, 0.0F};
-  parallel_for(clusters.size(), threads, 4, [&](std::size_t k) {
+  parallel_for(clusters.size(), execution, 4, [&](std::size_t k) {
     PoseCluster& cluster = clusters[k];
     cluster.camera_from_part = refine_pose(map, edges, bank, {}, cluster.camera_from_part, schedule);
     cluster.score =

@@ -3,6 +3,7 @@
 #include "core/bank/bank.hpp"
 #include "core/detect/cluster.hpp"
 #include "core/detect/depth_edges.hpp"
+#include "core/detect/execution.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/detect/scene_map.hpp"
 #include "core/memory/fixed_vector.hpp"
@@ -28,12 +29,12 @@ struct IcpSchedule {
 
 /// Refines all clusters coarsely, rates them by their agreement with the scene and puts the best first.
 void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
-                     int threads, FixedVector<PoseCluster>& clusters);
+                     const Execution& execution, FixedVector<PoseCluster>& clusters);
 
 /// Refines clusters closely, surfaces alone, rates them by their agreement within what verification tolerates, and puts
 /// the best first.
 void refine_closely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
-                    int threads, std::span<PoseCluster> clusters);
+                    const Execution& execution, std::span<PoseCluster> clusters);
 
 /// Makes one of the clusters that have met, best first.
 void keep_distinct(const Bank& bank, const RefineParameters& parameters, FixedVector<PoseCluster>& clusters);

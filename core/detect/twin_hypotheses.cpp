@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/detect/consistency.hpp"
-#include "core/detect/parallel_for.hpp"
 #include "core/detect/refine.hpp"
 
 namespace graspd {
@@ -34,16 +33,16 @@ void choose_twins(const SceneMap& map, const Bank& bank, const RefineParameters&
 }  // namespace
 
 void add_twins(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
-               int threads, FixedVector<PoseCluster>& clusters) {
+               const Execution& execution, FixedVector<PoseCluster>& clusters) {
   const std::size_t each = std::min(bank.twins.size(), static_cast<std::size_t>(std::max(parameters.twins, 0)));
   if (each == 0) return;
   const std::size_t first = clusters.size();
   const std::size_t parents = std::min(first, (clusters.capacity() - first) / each);
   clusters.assume_size(first + parents * each);
   const std::span<PoseCluster> added = clusters.span().subspan(first);
-  parallel_for(parents, threads, 1,
+  parallel_for(parents, execution, 1,
                [&](std::size_t k) { choose_twins(map, bank, parameters, clusters[k], added.subspan(k * each, each)); });
-  refine_closely(map, edges, bank, parameters, threads, added);
+  refine_closely(map, edges, bank, parameters, execution, added);
   std::size_t kept = first;
   for (std::size_t k = 0; k < added.size(); ++k) {
     if (added[k].score > worth_judging * clusters[k / each].score) clusters[kept++] = added[k];

@@ -2,6 +2,7 @@
 
 #include "core/detect/cluster.hpp"
 #include "core/detect/depth_edges.hpp"
+#include "core/detect/execution.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/detect/scene_map.hpp"
 
@@ -11,6 +12,6 @@ namespace graspd {
 /// up to `parameters.twins` of each, as far as there is room. A vote is cast by what a part shares with its twins as
 /// well; which of them it is, verification tells.
 void add_twins(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
-               int threads, FixedVector<PoseCluster>& clusters);
+               const Execution& execution, FixedVector<PoseCluster>& clusters);
 
 }  // namespace graspd

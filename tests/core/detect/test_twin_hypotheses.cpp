@@ -31,7 +31,7 @@ class TwinHypotheses : public testing::Test {
                             .score();
     clusters_.push_back({pose, 10.0F, 0, 0, score});
   }
-  void add() { add_twins(scene_.map, scene_.edges, bank_, parameters_.refine, 1, clusters_); }
+  void add() { add_twins(scene_.map, scene_.edges, bank_, parameters_.refine, {1}, clusters_); }
 
   BracketBank maker_;
   BracketScene bins_;

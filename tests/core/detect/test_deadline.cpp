@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "tests/core/detect/bracket_scene.hpp"
+
+namespace graspd {
+namespace {
+
+/// A clock that advances by one each time that it is read.
+std::atomic<std::int64_t> readings{0};
+std::int64_t read_clock() { return ++readings; }
+
+class Deadline : public testing::Test {
+ protected:
+  Deadline() {
+    request_.banks = std::span(&maker_.bank(), 1);
+    request_.now_ns = read_clock;
+  }
+  Detections detect_until(std::int64_t deadline) {
+    readings = 0;
+    request_.deadline_ns = deadline;
+    Detections detections;
+    EXPECT_TRUE(detect(bin_.frame(), request_, {}, memory_.workspace, detections).ok());
+    return detections;
+  }
+
+  BracketBank maker_;
+  BracketScene bin_;
+  DetectMemory memory_{1};
+  DetectRequest request_;
+};
+
+TEST_F(Deadline, ThatIsFarOffChangesNothing) {
+  const std::size_t found = detect_until(0).instances.size();
+  const Detections detections = detect_until(std::int64_t{1} << 60U);
+  EXPECT_EQ(detections.instances.size(), found);
+  EXPECT_EQ(detections.flags & flag_deadline, 0U);
+}
+
+TEST_F(Deadline, ThatHasPassedLeavesNothing) {
+  const Detections detections = detect_until(1);
+  EXPECT_NE(detections.flags & flag_deadline, 0U);
+  EXPECT_TRUE(detections.instances.empty());
+}
+
+TEST_F(Deadline, LeavesWhatWasVerifiedByThen) {
+  const std::size_t found = detect_until(std::int64_t{1} << 60U).instances.size();
+  const std::int64_t whole = readings;
+  std::size_t most = 0;
+  for (const std::int64_t share : {20, 60, 90, 95, 97, 99}) {
+    const Detections detections = detect_until(whole * share / 100);
+    EXPECT_NE(detections.flags & flag_deadline, 0U);
+    EXPECT_LE(detections.instances.size(), found);
+    most = std::max(most, detections.instances.size());
+    for (const Instance& instance : detections.instances) {
+      EXPECT_TRUE(std::any_of(bin_.poses.begin(), bin_.poses.end(), [&](const RigidTransform& truth) {
+        return (instance.camera_from_part.translation - truth.translation).norm() < 0.002F;
+      }));
+    }
+  }
+  EXPECT_GT(most, 0U);
+}
+
+}  // namespace
+}  // namespace graspd
