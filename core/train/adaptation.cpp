@@ -13,10 +13,9 @@ namespace graspd {
 namespace {
 
 constexpr double weight_of_hidden = 0.5;
-constexpr double price_of_doubling = 0.01;   ///< Of merit, for twice as many points.
+constexpr double price_of_doubling = 0.02;  ///< Of merit, for twice as many points, which take thrice the time or more.
 constexpr float price_without_edges = 0.1F;  ///< Of merit: bins hold things that nobody has simulated.
 constexpr float building_share = 0.15F;      ///< Of the progress.
-constexpr float alike = 0.02F;               ///< Settings that differ by this share or less are one.
 
 /// A setting while it is tried.
 struct Candidate {
@@ -107,10 +106,11 @@ Status try_edges(const TrialPart& part, std::span<SimulatedScene> bins, std::spa
 /// Banks for all settings, in parallel.
 Result<std::vector<Candidate>> make_candidates(const PartDescription& part, const AdaptationParameters& adaptation,
                                                const BankBuildParameters& parameters) {
-  std::vector<Candidate> candidates(adaptation.model_points.size());
+  std::vector<Candidate> candidates(adaptation.samplings.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     candidates[i].build = parameters;
-    candidates[i].build.model_points = adaptation.model_points[i];
+    candidates[i].build.sampling = adaptation.samplings[i];
+    candidates[i].build.model_points = 0;
   }
   candidates.front().status = make_bank(part, candidates.front());
   if (!candidates.front().status.ok()) return candidates.front().status;
@@ -121,10 +121,6 @@ Result<std::vector<Candidate>> make_candidates(const PartDescription& part, cons
                [&](std::size_t i) { candidates[i + 1].status = make_bank(known, candidates[i + 1]); });
   // Too fine for the format, for a part with many views: then a coarser one must do.
   std::erase_if(candidates, [](const Candidate& candidate) { return !candidate.status.ok(); });
-  const auto same = [](const Candidate& a, const Candidate& b) {
-    return b.trial.sampling > (1.0F - alike) * a.trial.sampling;
-  };
-  candidates.erase(std::unique(candidates.begin(), candidates.end(), same), candidates.end());
   return candidates;
 }
 
@@ -145,7 +141,7 @@ float adaptation_merit(const TrialOutcome& outcome) {
 Status adapt_to_bins(const PartDescription& part, const AdaptationParameters& adaptation,
                      const std::function<void(float)>& progress, BankBuildParameters& parameters,
                      AdaptationReport& report) {
-  if (adaptation.model_points.empty()) return {};
+  if (adaptation.samplings.empty()) return {};
   Result<std::vector<Candidate>> made = make_candidates(part, adaptation, parameters);
   if (!made.ok()) return made.status();
   std::vector<Candidate>& candidates = made.value();

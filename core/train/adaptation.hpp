@@ -13,8 +13,8 @@ namespace graspd {
 
 /// How a bank is adapted to its part.
 struct AdaptationParameters {
-  /// Settings that are tried, as points that the whole surface makes at them; fewest, so cheapest, first.
-  std::vector<int> model_points{500, 700, 1000, 1400};
+  /// Samplings that are tried, as shares of the diameter; coarsest, so cheapest, first.
+  std::vector<float> samplings{0.06F, 0.05F, 0.042F, 0.035F};
   std::size_t first_bins = 5;     ///< Simulated bins in which every setting is tried,
   std::size_t last_bins = 10;     ///< those in which the best ones are, the first among them,
   std::size_t finalists = 2;      ///< how many these are,
@@ -31,7 +31,7 @@ struct AdaptationTrial {
   float merit = 0;       ///< See adaptation_merit; less a little for its cost.
 };
 
-/// What was tried, in the order of AdaptationParameters::model_points; settings that come to the same are left out.
+/// What was tried, in the order of AdaptationParameters::samplings.
 struct AdaptationReport {
   std::vector<AdaptationTrial> trials;
   std::size_t chosen = 0;

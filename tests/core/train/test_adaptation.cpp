@@ -28,7 +28,7 @@ BankBuildParameters quick() {
 /// Few parts in small pictures of few bins.
 AdaptationParameters small() {
   AdaptationParameters adaptation;
-  adaptation.model_points = {60, 350};
+  adaptation.samplings = {0.2F, 0.06F};
   adaptation.first_bins = 1;
   adaptation.last_bins = 2;
   adaptation.stranger_bins = 1;
