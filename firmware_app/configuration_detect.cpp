@@ -33,6 +33,7 @@ void read_match(SettingsTable table, DetectParameters& parameters) {
   table.read("verify_tolerance", parameters.verify.tolerance, 0.05, 5);
   table.read("verify_blurred_tolerance", parameters.verify.blurred_tolerance, 0.05, 5);
   table.read("minimum_measured", parameters.verify.minimum_measured, 0, 1);
+  table.read("minimum_inside", parameters.verify.minimum_inside, 0, 1);
   table.read("minimum_purity", parameters.verify.minimum_purity, 0, 1);
   table.finish();
 }

@@ -12,7 +12,7 @@ namespace graspd {
 /// Why a hypothesis was rejected (paper 2.4.2), in the order in which the tests run.
 enum class Rejection : std::uint8_t {
   none,
-  weak,          ///< Too little of the model was measured to judge it.
+  weak,          ///< Too little of the model was measured, or lies inside the image, to judge it.
   overlap,       ///< Overlap testing: too little of the visible model surface confirmed.
   boundary,      ///< Boundary testing: model where the scene shows free space.
   edge,          ///< Edge consistency testing.
@@ -37,6 +37,7 @@ struct Evidence {
   float visible = 0;    ///< Confirmed share of all the surface that faces the sensor from this pose.
   float purity = 0;     ///< Confirmed share of the surface for or against which the scene speaks.
   float measured = 0;   ///< Share of that surface for which the sensor saw anything.
+  float inside = 1;     ///< Share of the surface that falls inside the image.
   float boundary = 0;   ///< Share of the model that stands where the scene shows free space.
   float edge = 0;       ///< Share of the decided outline that agrees with the scene.
   float outline = 0;    ///< Length of the outline, in units.

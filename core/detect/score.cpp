@@ -41,6 +41,7 @@ float score_of(const Evidence& evidence, bool in_company) {
 std::array<TestOutcome, evidence_test_count> test_outcomes(const Evidence& evidence, const VerifyParameters& parameters,
                                                            const VerifyThresholds& thresholds) {
   return {{{Rejection::weak, evidence.measured, parameters.minimum_measured, true},
+           {Rejection::weak, evidence.inside, parameters.minimum_inside, true},
            {Rejection::overlap, evidence.overlap, thresholds.minimum_overlap, true},
            {Rejection::overlap, evidence.purity, parameters.minimum_purity, true},
            {Rejection::boundary, evidence.boundary, thresholds.maximum_boundary, false},

@@ -25,7 +25,7 @@ struct TestOutcome {
 
   [[nodiscard]] bool failed() const { return at_least ? figure < threshold : figure > threshold; }
 };
-inline constexpr std::size_t evidence_test_count = 6;
+inline constexpr std::size_t evidence_test_count = 7;
 
 /// All tests of paper 2.4.2 that the evidence of one pose decides, in the order in which they count.
 [[nodiscard]] std::array<TestOutcome, evidence_test_count> test_outcomes(const Evidence& evidence,

@@ -241,6 +241,7 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   const float against = count(CellVerdict::behind) + count(CellVerdict::contradicted);
   const float measured = confirmed + against + count(CellVerdict::occluded);
   // What lies outside the image was not measured.
+  evidence.inside = model.inside;
   evidence.visible = model.inside * confirmed / rendered;
   evidence.measured = model.inside * measured / rendered;
   evidence.overlap = measured > 0.0F ? confirmed / measured : 0.0F;

@@ -127,6 +127,7 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(detect.parameters.verify.tolerance);
   GRASPD_COMPARE(detect.parameters.verify.blurred_tolerance);
   GRASPD_COMPARE(detect.parameters.verify.minimum_measured);
+  GRASPD_COMPARE(detect.parameters.verify.minimum_inside);
   GRASPD_COMPARE(detect.parameters.verify.minimum_purity);
   GRASPD_COMPARE(detect.capacity.map_cells);
   GRASPD_COMPARE(detect.capacity.scene_points);

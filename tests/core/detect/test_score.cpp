@@ -100,6 +100,13 @@ TEST(EvidenceTests, FirstFailureIsNamed) {
   EXPECT_EQ(failed_test(evidence, parameters, thresholds), Rejection::weak);
 }
 
+TEST(EvidenceTests, WhatStandsMostlyOutsideTheImageIsWeak) {
+  const VerifyParameters parameters;
+  Evidence evidence = good_evidence();
+  evidence.inside = 0.9F * parameters.minimum_inside;
+  EXPECT_EQ(failed_test(evidence, parameters, {}), Rejection::weak);
+}
+
 TEST(EvidenceTests, LessOfTheOutlineMustAgreeOnAShapeThatFitsOnlyItself) {
   const VerifyParameters parameters;
   const VerifyThresholds thresholds;
