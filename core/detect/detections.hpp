@@ -29,7 +29,7 @@ inline constexpr std::size_t rejection_count = 10;
 
 /// Lengths and areas in evidence are counted in this share of the diameter and its square, so that they mean the same
 /// however finely a part is sampled.
-inline constexpr float evidence_unit = 0.04F;
+inline constexpr float evidence_unit = 0.03F;
 
 /// The figures on which a hypothesis is judged; shares in [0, 1].
 struct Evidence {
