@@ -34,9 +34,8 @@ struct PreprocessWorkspace {
 
 [[nodiscard]] PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacity& capacity);
 
-/// Bins the frame, removes the background, splits the rest into segments, fits normals and
-/// finds edges (paper 2.4.1), at a resolution at which a part is judged by `detail` metres. `empty_bin` may have no
-/// depth.
+/// Bins the frame, removes the background, splits the rest into segments, fits normals and finds edges (paper 2.4.1),
+/// at a resolution that suits a part whose poses are judged at `detail` metres. `empty_bin` may have no depth.
 [[nodiscard]] Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float detail,
                                const PreprocessParameters& parameters, int threads, PreprocessWorkspace& workspace);
 

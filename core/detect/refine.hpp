@@ -31,8 +31,8 @@ struct IcpSchedule {
 void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
                      const Execution& execution, FixedVector<PoseCluster>& clusters);
 
-/// Refines clusters closely, surfaces alone, rates them by their agreement within what verification tolerates, and puts
-/// the best first.
+/// Refines clusters closely, surfaces alone, and rates them by their agreement within what verification tolerates.
+/// Their order stays.
 void refine_closely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
                     const Execution& execution, std::span<PoseCluster> clusters);
 
