@@ -18,6 +18,16 @@ bool is_identity(const RigidTransform& t) { return t.translation.isZero(1e-6F) &
 
 bool is_within(float value, float low, float high) { return value >= low && value <= high; }
 
+/// Whether a point may belong to the part at all; numbers beyond would overflow on their way to a cell or pixel.
+bool is_near(const BankPart& part, const Vector3& point) {
+  return (point - part.centre).squaredNorm() <= 4.0F * part.diameter * part.diameter;
+}
+
+/// Whether a transform leaves the part where it is.
+bool keeps_place(const BankPart& part, const RigidTransform& part_from_part) {
+  return is_rigid(part_from_part) && is_near(part, part_from_part * part.centre);
+}
+
 const char* part_fault(const BankPart& part) {
   if (std::find(part.name.begin(), part.name.end(), '\0') == part.name.end()) return "the part's name has no end";
   const bool lengths = std::isfinite(part.diameter) && part.diameter > 0.0F && std::isfinite(part.sampling) &&
@@ -30,6 +40,7 @@ const char* part_fault(const BankPart& part) {
   if (!is_within(part.detail, 0.1F * part.sampling, part.sampling)) {
     return "the part's sampling and detail contradict each other";
   }
+  if (!is_within(part.centre.cwiseAbs().maxCoeff(), 0.0F, 1e4F)) return "the part lies too far from its origin";
   if (part.symmetry_continuous > 1 || !part.symmetry_axis.point.allFinite() || !is_unit(part.symmetry_axis.direction)) {
     return "the part's symmetry axis is not a line";
   }
@@ -108,16 +119,18 @@ const char* entry_fault(const Bank& bank) {
 }
 
 template <class Points>
-bool all_oriented(const Points& points) {
+bool all_oriented(const BankPart& part, const Points& points) {
   return std::all_of(points.begin(), points.end(),
-                     [](const auto& p) { return p.position.allFinite() && is_unit(p.normal); });
+                     [&](const auto& p) { return is_near(part, p.position) && is_unit(p.normal); });
 }
 
 const char* surface_fault(const Bank& bank) {
-  if (!all_oriented(bank.view_points)) return "a view point is not a point with a unit normal";
-  if (bank.surface.empty() || !all_oriented(bank.surface)) return "the surface is not one of points with unit normals";
+  if (!all_oriented(*bank.part, bank.view_points)) return "a view point is not a point with a unit normal";
+  if (bank.surface.empty() || !all_oriented(*bank.part, bank.surface))
+    return "the surface is not one of points with unit normals";
   for (const EdgePoint& edge : bank.edges) {
-    if (!edge.position.allFinite() || !is_unit(edge.tangent)) return "an edge point is not a point with a direction";
+    if (!is_near(*bank.part, edge.position) || !is_unit(edge.tangent))
+      return "an edge point is not a point with a direction";
   }
   const VisibilityTable& table = bank.visibility;
   if (table.directions.empty() || table.bits.size() / table.words_per_row != table.directions.size() ||
@@ -140,7 +153,7 @@ const char* shape_fault(const Bank& bank) {
   const auto& mesh = bank.mesh;
   if (mesh.triangles.empty()) return "its mesh has no faces";
   for (const Vector3& vertex : mesh.vertices) {
-    if (!vertex.allFinite()) return "a vertex of its mesh is not a number";
+    if (!is_near(*bank.part, vertex)) return "a vertex of its mesh is not near the part";
   }
   for (const Triangle& triangle : mesh.triangles) {
     if (*std::max_element(triangle.begin(), triangle.end()) >= mesh.vertices.size()) {
@@ -150,10 +163,14 @@ const char* shape_fault(const Bank& bank) {
   if (bank.symmetry_discrete.empty() || !is_identity(bank.symmetry_discrete.front())) {
     return "its symmetries do not begin with the identity";
   }
-  if (!std::all_of(bank.symmetry_discrete.begin(), bank.symmetry_discrete.end(), is_rigid)) {
+  if (!std::all_of(bank.symmetry_discrete.begin(), bank.symmetry_discrete.end(),
+                   [&](const RigidTransform& t) { return keeps_place(*bank.part, t); })) {
     return "a symmetry is not a rigid transform";
   }
-  if (!std::all_of(bank.twins.begin(), bank.twins.end(), is_rigid)) return "a twin is not a rigid transform";
+  if (!std::all_of(bank.twins.begin(), bank.twins.end(),
+                   [&](const RigidTransform& t) { return keeps_place(*bank.part, t); })) {
+    return "a twin is not a rigid transform";
+  }
   for (const PartGrasp& grasp : bank.grasps) {
     if (!is_rigid(grasp.part_from_tool)) return "a grasp is not a rigid transform";
     const auto kind = static_cast<std::uint32_t>(grasp.kind);

@@ -205,6 +205,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"vertex that is not there", [](SmallBank& b) { b.triangles[1][2] = 4; }},
                     Fault{"begin with the identity", [](SmallBank& b) { b.symmetries[0] = b.symmetries[1]; }},
                     Fault{"a symmetry is not", [](SmallBank& b) { b.symmetries[1].rotation *= 1.1F; }},
+                    Fault{"a twin is not", [](SmallBank& b) { b.twins[0].translation.x() = 1e20F; }},
+                    Fault{"too far from its origin", [](SmallBank& b) { b.part.centre.x() = 1e20F; }},
+                    Fault{"a view point is not", [](SmallBank& b) { b.view_points[1].position.y() = 1e30F; }},
                     Fault{"a twin is not", [](SmallBank& b) { b.twins[0].rotation *= 1.1F; }},
                     Fault{"a symmetry is not", [](SmallBank& b) { b.symmetries[1].rotation.col(0) *= -1.0F; }},
                     Fault{"a grasp is of no known kind", [](SmallBank& b) { b.grasps[0].opening = not_a_number; }}));
