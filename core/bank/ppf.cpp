@@ -2,13 +2,6 @@
 
 namespace graspd {
 
-PpfFeature ppf_feature(const OrientedPoint& first, const OrientedPoint& second) {
-  const Vector3 d = second.position - first.position;
-  const float distance = d.norm();
-  const Vector3 along = distance > 0.0F ? Vector3(d / distance) : Vector3(Vector3::Zero());
-  return {distance, first.normal.dot(along), second.normal.dot(along), first.normal.dot(second.normal)};
-}
-
 RigidTransform local_from_point(const OrientedPoint& point) {
   const Vector3& n = point.normal;
   Matrix3 rotation;

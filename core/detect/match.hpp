@@ -8,6 +8,7 @@
 #include "core/detect/execution.hpp"
 #include "core/detect/neighbour_grid.hpp"
 #include "core/detect/parameters.hpp"
+#include "core/detect/voting.hpp"
 #include "core/memory/arena.hpp"
 #include "core/memory/fixed_vector.hpp"
 
@@ -18,16 +19,6 @@ struct Hypothesis {
   RigidTransform camera_from_part;
   float votes = 0;
   std::uint32_t view = 0;
-};
-
-/// Memory of the voting for one thread.
-struct VotingScratch {
-  std::span<std::uint16_t> accumulator;  ///< References of all views * alpha_bins.
-  std::span<std::uint64_t> seen;         ///< For each PPF cell: an epoch and the scene alphas that have voted.
-  std::span<float> best_votes;           ///< For each reference, its best alpha's votes
-  std::span<std::uint8_t> best_alpha;    ///< and that alpha.
-  std::uint32_t epoch = 0;
-  VotingWork work;  ///< Of the matching in hand.
 };
 
 struct MatchWorkspace {

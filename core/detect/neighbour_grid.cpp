@@ -4,6 +4,17 @@
 
 namespace graspd {
 
+NeighbourGridStorage carve_neighbour_grid(Arena& arena, std::size_t points) {
+  NeighbourGridStorage storage;
+  storage.points = arena.take<OrientedPoint>(points, "sampling");
+  PointColumns& columns = storage.columns;
+  for (std::span<float>* column :
+       {&columns.x, &columns.y, &columns.z, &columns.normal_x, &columns.normal_y, &columns.normal_z})
+    *column = arena.take<float>(points + PointColumns::padding, "sampling");
+  storage.starts = arena.take<std::uint32_t>(most_grid_cells + 1, "sampling");
+  return storage;
+}
+
 NeighbourGrid build_neighbour_grid(std::span<const OrientedPoint> points, float edge,
                                    const NeighbourGridStorage& storage) {
   NeighbourGrid grid;
@@ -42,6 +53,17 @@ NeighbourGrid build_neighbour_grid(std::span<const OrientedPoint> points, float 
   // Filling moved every start to its end, which is the next one's start.
   std::copy_backward(grid.starts.begin(), grid.starts.end() - 1, grid.starts.end());
   grid.starts[0] = 0;
+
+  grid.columns = storage.columns;
+  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+    const OrientedPoint& point = grid.points[i];
+    grid.columns.x[i] = point.position.x();
+    grid.columns.y[i] = point.position.y();
+    grid.columns.z[i] = point.position.z();
+    grid.columns.normal_x[i] = point.normal.x();
+    grid.columns.normal_y[i] = point.normal.y();
+    grid.columns.normal_z[i] = point.normal.z();
+  }
   return grid;
 }
 

@@ -8,10 +8,18 @@
 
 namespace graspd {
 
+/// Oriented points column by column, as vector instructions take them. Each column is `padding` longer than there are
+/// points, so that whole blocks can be read.
+struct PointColumns {
+  static constexpr std::size_t padding = 16;
+  std::span<float> x, y, z, normal_x, normal_y, normal_z;
+};
+
 /// Scene points in the order of a coarse grid, so that the neighbours of a point lie in few runs of
 /// memory.
 struct NeighbourGrid {
   std::span<OrientedPoint> points;  ///< In grid order; x runs fastest.
+  PointColumns columns;             ///< The same points.
   std::span<std::uint32_t> starts;  ///< For each grid cell its first point; one more than there are cells.
   Vector3 origin = Vector3::Zero();
   float edge = 1;  ///< Metres.
@@ -49,8 +57,11 @@ struct NeighbourGrid {
 /// Memory of a NeighbourGrid.
 struct NeighbourGridStorage {
   std::span<OrientedPoint> points;
+  PointColumns columns;
   std::span<std::uint32_t> starts;
 };
+
+[[nodiscard]] NeighbourGridStorage carve_neighbour_grid(Arena& arena, std::size_t points);
 
 /// Most cells of a grid; a scene that would need more gets a coarser one.
 inline constexpr std::size_t most_grid_cells = 32768;

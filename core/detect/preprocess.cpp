@@ -48,8 +48,7 @@ PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacit
   workspace.sampling.keys = arena.take<VoxelKey>(cells, "sampling");
   workspace.sampling.scratch = arena.take<VoxelKey>(cells, "sampling");
   workspace.samples = FixedVector(arena.take<OrientedPoint>(capacity.scene_points, "sampling"));
-  workspace.grid.points = arena.take<OrientedPoint>(capacity.scene_points, "sampling");
-  workspace.grid.starts = arena.take<std::uint32_t>(most_grid_cells + 1, "sampling");
+  workspace.grid = carve_neighbour_grid(arena, capacity.scene_points);
   return workspace;
 }
 

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <vector>
 
 #include "core/detect/neighbour_grid.hpp"
+#include "tests/core/memory/carved.hpp"
 
 namespace graspd {
 namespace {
@@ -19,12 +21,13 @@ std::vector<OrientedPoint> scattered_points(std::size_t count) {
 
 /// A grid with memory of its own.
 struct OwnedGrid {
-  std::vector<OrientedPoint> points;
-  std::vector<std::uint32_t> starts = std::vector<std::uint32_t>(most_grid_cells + 1);
+  std::unique_ptr<std::byte[]> bytes;
   NeighbourGrid grid;
 
-  OwnedGrid(const std::vector<OrientedPoint>& from, float edge) : points(from.size()) {
-    grid = build_neighbour_grid(from, edge, {points, starts});
+  OwnedGrid(const std::vector<OrientedPoint>& from, float edge) {
+    const NeighbourGridStorage storage =
+        carved_into(bytes, [&](Arena& arena) { return carve_neighbour_grid(arena, from.size()); });
+    grid = build_neighbour_grid(from, edge, storage);
   }
 };
 
@@ -50,6 +53,17 @@ TEST_P(NeighbourGridEdges, TheRunsOfAPointHoldEveryNeighbour) {
 
 // The smallest edges would need more cells than any integer holds: the grid becomes coarser instead.
 INSTANTIATE_TEST_SUITE_P(Edges, NeighbourGridEdges, testing::Values(10.0F, 0.04F, 1e-3F, 1e-12F, 1e-37F));
+
+TEST(NeighbourGrid, ColumnsHoldThePointsInTheirOrder) {
+  const OwnedGrid owned(scattered_points(100), 0.04F);
+  const PointColumns& columns = owned.grid.columns;
+  ASSERT_GE(columns.x.size(), owned.grid.points.size() + PointColumns::padding);
+  for (std::size_t i = 0; i < owned.grid.points.size(); ++i) {
+    const OrientedPoint& point = owned.grid.points[i];
+    EXPECT_EQ(Vector3(columns.x[i], columns.y[i], columns.z[i]), point.position);
+    EXPECT_EQ(Vector3(columns.normal_x[i], columns.normal_y[i], columns.normal_z[i]), point.normal);
+  }
+}
 
 TEST(NeighbourGrid, NoPointsMakeAnEmptyGrid) {
   const OwnedGrid owned({}, 0.04F);

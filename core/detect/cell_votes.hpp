@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "core/bank/ppf.hpp"
+#include "core/detect/voting.hpp"
+
+namespace graspd {
+
+/// How many turns have met a cell.
+[[nodiscard]] inline std::uint32_t count_turns(const CellMeeting& meeting) {
+  std::array<std::uint64_t, alpha_bins / 8> words;
+  std::memcpy(words.data(), meeting.turns.data(), sizeof words);
+  int count = 0;
+  for (const std::uint64_t word : words) count += std::popcount(word);
+  return static_cast<std::uint32_t>(count);
+}
+
+/// For every turn of an entry, what the turns that met its cell add to the bins of its reference. Half a bin is added
+/// to differences of turns so that their 256 steps round to the nearest of the bins.
+class TurnVotes {
+ public:
+  explicit TurnVotes(const CellMeeting& meeting) {
+    std::array<std::uint8_t, row_length + 2> turns;
+    for (std::size_t k = 0; k < turns.size(); ++k) turns[k] = meeting.turns[(k + alpha_bins - 1) % alpha_bins];
+    for (std::uint32_t phase = 0; phase < steps_per_bin; ++phase) {
+      // Turns from this step of a bin on fall into one bin of the difference, earlier ones into the bin before it.
+      const std::uint32_t step = (phase + steps_per_bin / 2) % steps_per_bin;
+      const std::uint32_t lower = (1U << step) - 1U;
+      const std::uint8_t* const from = turns.data() + (phase < steps_per_bin / 2 ? 0 : 1);
+      for (std::size_t k = 0; k < row_length; ++k) {
+        votes_[phase][k] = static_cast<std::uint16_t>((from[k] & ~lower) != 0 ? 1 : 0);
+        votes_[phase][k] = static_cast<std::uint16_t>(votes_[phase][k] + ((from[k + 1] & lower) != 0 ? 1 : 0));
+      }
+    }
+  }
+  /// Adds the votes of an entry to the row of its reference.
+  void add(PpfEntry entry, std::uint16_t* row) const {
+    const std::uint32_t alpha = entry.alpha();
+    const std::uint16_t* const votes = votes_[alpha % steps_per_bin].data() + alpha / steps_per_bin;
+    for (std::size_t k = 0; k < alpha_bins; ++k) row[k] = static_cast<std::uint16_t>(row[k] + votes[k]);
+  }
+
+ private:
+  static constexpr std::uint32_t steps_per_bin = PpfEntry::alpha_steps / alpha_bins;
+  static constexpr std::size_t row_length = 2 * alpha_bins;
+  alignas(64) std::array<std::array<std::uint16_t, row_length>, steps_per_bin> votes_;
+};
+
+/// Adds the votes of one turn for all `entries` to the rows of their references, of which `rows` is the first.
+inline void vote_turn(std::span<const PpfEntry> entries, std::uint32_t alpha, std::uint16_t* rows) {
+  const std::uint32_t rounded = alpha + 4U;
+  for (const PpfEntry entry : entries) ++rows[(entry.packed >> 3U & ~31U) | ((rounded - entry.packed) & 0xFFU) >> 3U];
+}
+
+/// Adds the votes of all turns that met a cell.
+inline void vote_cell(std::span<const PpfEntry> entries, const CellMeeting& meeting, std::uint32_t turns,
+                      std::uint16_t* rows) {
+  constexpr std::uint32_t few_turns = 2;
+  constexpr std::size_t few_entries = 8;
+  if (turns <= few_turns || entries.size() <= few_entries) {
+    for (std::uint32_t bin = 0; bin < alpha_bins; ++bin) {
+      if (meeting.turns[bin] == 0) continue;
+      vote_turn(entries, bin * 8U + static_cast<std::uint32_t>(std::countr_zero(meeting.turns[bin])), rows);
+    }
+    return;
+  }
+  const TurnVotes votes(meeting);
+  for (const PpfEntry entry : entries) votes.add(entry, rows + std::size_t{entry.reference()} * alpha_bins);
+}
+
+}  // namespace graspd
