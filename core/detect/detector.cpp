@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "core/detect/narrowing.hpp"
 #include "core/detect/parallel_for.hpp"
 #include "core/detect/refine.hpp"
 #include "core/detect/score.hpp"
 #include "core/detect/spread.hpp"
-#include "core/detect/twin_hypotheses.hpp"
 #include "core/detect/verify.hpp"
 
 namespace graspd {
@@ -155,22 +155,10 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
 
     refine_coarsely(scene.map, scene.edges, bank, parameters.refine, execution, workspace.clusters);
     record(request.trace, b, TracedStage::aligned, workspace.clusters);
-    keep_distinct(bank, parameters.refine, workspace.clusters);
-    const int looked_up = 2 * parameters.refine.coarse_points;
-    const float tolerance = 0.6F * bank.part->detail;
-    keep_spread(scene.map, bank, {parameters.refine.closer, parameters.refine.closer_per_place, looked_up, tolerance},
-                workspace.select.claimed, workspace.clusters);
-    refine_closely(scene.map, scene.edges, bank, parameters.refine, execution, workspace.clusters.span());
-    sort_by_score(workspace.clusters);
-    keep_distinct(bank, parameters.refine, workspace.clusters);
     // Each part gets its share of the memory, whatever came before it.
     const std::size_t share = workspace.capacity.judged / request.banks.size();
-    keep_spread(scene.map, bank,
-                {std::min(parameters.refine.judged, static_cast<int>(share)), parameters.refine.judged_per_place,
-                 looked_up, tolerance},
+    narrow_down(scene, bank, parameters.refine, std::min(parameters.refine.judged, static_cast<int>(share)), execution,
                 workspace.select.claimed, workspace.clusters);
-    add_twins(scene.map, scene.edges, bank, parameters.refine, execution, workspace.clusters);
-    keep_distinct(bank, parameters.refine, workspace.clusters);
     record(request.trace, b, TracedStage::distinct, workspace.clusters);
     clock.end_of(Stage::refine);
     if (execution.late()) break;

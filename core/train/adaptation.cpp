@@ -110,7 +110,6 @@ Result<std::vector<Candidate>> make_candidates(const PartDescription& part, cons
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     candidates[i].build = parameters;
     candidates[i].build.sampling = adaptation.samplings[i];
-    candidates[i].build.model_points = 0;
   }
   candidates.front().status = make_bank(part, candidates.front());
   if (!candidates.front().status.ok()) return candidates.front().status;
@@ -142,6 +141,7 @@ Status adapt_to_bins(const PartDescription& part, const AdaptationParameters& ad
                      const std::function<void(float)>& progress, BankBuildParameters& parameters,
                      AdaptationReport& report) {
   if (adaptation.samplings.empty()) return {};
+  parameters.model_points = 0;  // It would decide the sampling.
   Result<std::vector<Candidate>> made = make_candidates(part, adaptation, parameters);
   if (!made.ok()) return made.status();
   std::vector<Candidate>& candidates = made.value();
@@ -182,7 +182,6 @@ Status adapt_to_bins(const PartDescription& part, const AdaptationParameters& ad
     return candidates[a].trial.merit < candidates[b].trial.merit;
   });
   parameters.sampling = report.trials[report.chosen].sampling;
-  parameters.model_points = 0;
   if (!tries_edges) return {};
   const Status tried =
       try_edges(trial.value(), bins, strangers, adaptation.bins.threads, count, candidates[report.chosen], report);

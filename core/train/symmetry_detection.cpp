@@ -7,9 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/train/corner_normals.hpp"
-#include "core/train/part_mesh.hpp"
-#include "core/train/surface_sampling.hpp"
+#include "core/train/self_distance.hpp"
+#include "core/train/surface_moments.hpp"
 #include "core/train/view_sphere.hpp"
 
 namespace graspd {
@@ -21,19 +20,17 @@ constexpr int most_turns = 72;
 
 /// What the search asks again and again.
 struct Search {
-  const SurfaceIndex& index;
+  const ProbedSurface& surface;
   std::span<const OrientedPoint> probes;
   std::span<const OrientedPoint> few;  ///< The first of the probes, for questions that are asked often.
-  float diameter = 0;
 
   [[nodiscard]] bool turns(const SymmetryAxis& axis, float angle) const {
     const RigidTransform turn = turn_about(axis, angle);
-    return self_distance(index, few.first(few.size() / 4), turn, diameter).mean < 0.012F &&
-           self_distance(index, few, turn, diameter).mean < 0.008F &&
-           self_distance(index, probes, turn, diameter).symmetric();
+    return self_distance(surface, few.first(few.size() / 4), turn).mean < 0.012F &&
+           self_distance(surface, few, turn).mean < 0.008F && self_distance(surface, probes, turn).symmetric();
   }
   [[nodiscard]] float glance(const SymmetryAxis& axis, float angle) const {
-    return self_distance(index, few, turn_about(axis, angle), diameter).mean;
+    return self_distance(surface, few, turn_about(axis, angle)).mean;
   }
 };
 
@@ -73,7 +70,7 @@ FoundAxis turns_about(const Search& search, const SymmetryAxis& axis) {
 SymmetryAxis sharpen(const Search& search, std::span<const OrientedPoint> probes, SymmetryAxis axis, float angle,
                      float step) {
   const auto miss = [&](const SymmetryAxis& candidate) {
-    return self_distance(search.index, probes, turn_about(candidate, angle), search.diameter).mean;
+    return self_distance(search.surface, probes, turn_about(candidate, angle)).mean;
   };
   float best = miss(axis);
   for (; step > 0.0005F; step *= 0.5F) {
@@ -81,7 +78,7 @@ SymmetryAxis sharpen(const Search& search, std::span<const OrientedPoint> probes
     const Vector3 other = axis.direction.cross(across);
     for (const Vector3& move : {across, Vector3(-across), other, Vector3(-other)}) {
       const SymmetryAxis tilted{(axis.direction + step * move).normalized(), axis.point};
-      const SymmetryAxis shifted{axis.direction, axis.point + 0.25F * step * search.diameter * move};
+      const SymmetryAxis shifted{axis.direction, axis.point + 0.25F * step * search.surface.diameter * move};
       for (const SymmetryAxis& candidate : {tilted, shifted}) {
         const float distance = miss(candidate);
         if (distance < best) {
@@ -102,13 +99,13 @@ SymmetryAxis snap(const Search& search, const SymmetryAxis& axis, float angle) {
   SymmetryAxis straight = axis;
   straight.direction = Vector3::Unit(along);
   // Below a thousandth of the diameter, a place is that of a round number.
-  const float grain = 0.002F * search.diameter;
+  const float grain = 0.002F * search.surface.diameter;
   for (Eigen::Index i = 0; i < 3; ++i) {
     const float round = std::round(axis.point[i] * 2000.0F) / 2000.0F;
     if (i != along && std::abs(round - axis.point[i]) < grain) straight.point[i] = round;
   }
   const auto miss = [&](const SymmetryAxis& candidate) {
-    return self_distance(search.index, search.probes, turn_about(candidate, angle), search.diameter).mean;
+    return self_distance(search.surface, search.probes, turn_about(candidate, angle)).mean;
   };
   return miss(straight) < miss(axis) + 0.0005F ? straight : axis;
 }
@@ -139,44 +136,9 @@ bool near_one(std::span<const Vector3> axes, const Vector3& axis) {
   return std::any_of(axes.begin(), axes.end(), [&](const Vector3& other) { return std::abs(other.dot(axis)) > 0.99F; });
 }
 
-/// Where the surface lies and how it spreads, by area.
-struct Moments {
-  Vector3 middle;
-  Vector3 box_middle;
-  Matrix3 covariance;
-};
-
-Moments surface_moments(const Mesh& mesh) {
-  double area = 0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (const Triangle& t : mesh.triangles) {
-    const auto weight = static_cast<double>(face_vector(mesh, t).norm());
-    Eigen::Vector3d corners = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-    for (const std::uint32_t vertex : t) {
-      const Eigen::Vector3d corner = mesh.vertices[vertex].cast<double>();
-      corners += corner;
-      products += corner * corner.transpose();
-    }
-    area += weight;
-    sum += weight / 3.0 * corners;
-    squares += weight / 12.0 * (products + corners * corners.transpose());
-  }
-  Vector3 box_min = mesh.vertices.front();
-  Vector3 box_max = box_min;
-  for (const Vector3& vertex : mesh.vertices) {
-    box_min = box_min.cwiseMin(vertex);
-    box_max = box_max.cwiseMax(vertex);
-  }
-  const Eigen::Vector3d middle = sum / area;
-  return {middle.cast<float>(), 0.5F * (box_min + box_max),
-          (squares / area - middle * middle.transpose()).cast<float>()};
-}
-
 /// The principal axes of the surface. Every axis of a part lies along one of them, or at right angles
 /// to one with turns of its own, unless all three spreads are alike.
-std::vector<Vector3> principal_axes(const Moments& moments, bool& alike) {
+std::vector<Vector3> principal_axes(const SurfaceMoments& moments, bool& alike) {
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver(moments.covariance);
   alike = solver.eigenvalues()(0) > 0.9F * solver.eigenvalues()(2);
   std::vector<Vector3> axes;
@@ -215,7 +177,7 @@ std::vector<Vector3> searched_axes(const Search& search, const Vector3& middle) 
 }
 
 /// Adds those of `directions` about which the part can be turned.
-void add_axes(const Search& search, const Moments& moments, std::span<const Vector3> directions,
+void add_axes(const Search& search, const SurfaceMoments& moments, std::span<const Vector3> directions,
               std::vector<FoundAxis>& found) {
   for (const Vector3& direction : directions) {
     const bool known = std::any_of(found.begin(), found.end(), [&](const FoundAxis& other) {
@@ -234,34 +196,10 @@ void add_axes(const Search& search, const Moments& moments, std::span<const Vect
 
 }  // namespace
 
-SelfDistance self_distance(const SurfaceIndex& index, std::span<const OrientedPoint> probes,
-                           const RigidTransform& part_from_part, float diameter) {
-  std::vector<float> distances;
-  distances.reserve(probes.size());
-  float sum = 0;
-  for (const OrientedPoint& probe : probes) {
-    const OrientedPoint moved = part_from_part * probe;
-    const OrientedPoint& nearest = index.points()[index.nearest(moved)];
-    const Vector3 gap = moved.position - nearest.position;
-    // Along the surface the points of the index are only so dense; beyond that the gap is real.
-    const float out = std::abs(gap.dot(nearest.normal));
-    const float along = std::max(0.0F, std::sqrt(std::max(0.0F, gap.squaredNorm() - out * out)) - 0.03F * diameter);
-    const float turned = 0.05F * std::max(0.0F, 0.9F - moved.normal.dot(nearest.normal)) * diameter;
-    distances.push_back((out + along + turned) / diameter);
-    sum += distances.back();
-  }
-  const auto most = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 97 / 100);
-  std::nth_element(distances.begin(), most, distances.end());
-  return {sum / static_cast<float>(distances.size()), *most};
-}
-
 SymmetryGroup detect_symmetry(const Mesh& mesh, float diameter) {
-  const Moments moments = surface_moments(mesh);
-  const std::vector<OrientedPoint> surface = sample_surface(mesh, smooth_corner_normals(mesh, pi / 6.0F), 20000);
-  const SurfaceIndex index(surface, 0.1F * diameter);
-  std::vector<OrientedPoint> probes;
-  for (const std::size_t i : farthest_point_order(surface, 1000, 0.05F * diameter)) probes.push_back(surface[i]);
-  const Search search{index, probes, std::span(probes).first(std::min<std::size_t>(100, probes.size())), diameter};
+  const SurfaceMoments moments = surface_moments(mesh);
+  const ProbedSurface surface(mesh, diameter, 20000, 1000);
+  const Search search{surface, surface.probes, surface.first_probes(100)};
 
   std::vector<FoundAxis> found;
   bool alike = false;
@@ -286,19 +224,16 @@ SymmetryGroup detect_symmetry(const Mesh& mesh, float diameter) {
   const SymmetryGroup group = close_group(generators, main.continuous(), main.axis, diameter);
   // Axes that each fit nearly can generate turns that do not.
   const bool holds = std::all_of(group.discrete.begin(), group.discrete.end(), [&](const RigidTransform& member) {
-    return self_distance(index, probes, member, diameter).symmetric();
+    return self_distance(surface, surface.probes, member).symmetric();
   });
   return holds ? group : turns;
 }
 
 float group_distance(const Mesh& mesh, const SymmetryGroup& group, float diameter) {
-  const std::vector<OrientedPoint> surface = sample_surface(mesh, smooth_corner_normals(mesh, pi / 6.0F), 20000);
-  const SurfaceIndex index(surface, 0.1F * diameter);
-  std::vector<OrientedPoint> probes;
-  for (const std::size_t i : farthest_point_order(surface, 200, 0.05F * diameter)) probes.push_back(surface[i]);
+  const ProbedSurface surface(mesh, diameter, 20000, 200);
   float worst = 0;
   for (const RigidTransform& member : sampled_members(group, 7)) {
-    worst = std::max(worst, self_distance(index, probes, member, diameter).mean);
+    worst = std::max(worst, self_distance(surface, surface.probes, member).mean);
   }
   return worst;
 }

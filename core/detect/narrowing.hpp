@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/bank/bank.hpp"
+#include "core/detect/cluster.hpp"
+#include "core/detect/execution.hpp"
+#include "core/detect/parameters.hpp"
+#include "core/detect/preprocess.hpp"
+#include "core/memory/fixed_vector.hpp"
+
+namespace graspd {
+
+/// Narrows coarsely refined clusters down to those worth verifying: the best of each place are refined closely, the
+/// best of those stay, up to `most` of them, and their twins join. `clusters` come sorted; `counts` is scratch of a
+/// value a map cell.
+void narrow_down(const Scene& scene, const Bank& bank, const RefineParameters& parameters, int most,
+                 const Execution& execution, std::span<std::uint16_t> counts, FixedVector<PoseCluster>& clusters);
+
+}  // namespace graspd
