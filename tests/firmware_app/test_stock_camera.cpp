@@ -5,6 +5,7 @@
 #include <string>
 
 #include "drivers/files/bop_dataset.hpp"
+#include "tests/core/geometry/expect_camera.hpp"
 #include "tests/firmware_app/camera_and_daemon.hpp"
 
 namespace graspd {
@@ -38,12 +39,7 @@ class StockCamera : public CameraAndDaemon {
 /// Aravis draws a ramp that rises by 256 a pixel along both sides, over and over.
 void expect_ramp(const LoadedFrame& loaded) {
   const Camera& camera = loaded.camera;
-  ASSERT_EQ(camera.width, 128);
-  ASSERT_EQ(camera.height, 64);
-  EXPECT_EQ(camera.fx, 500.0F);
-  EXPECT_EQ(camera.fy, 505.0F);
-  EXPECT_EQ(camera.cx, 63.5F);
-  EXPECT_EQ(camera.cy, 31.25F);
+  expect_same_camera(camera, {128, 64, 500.0F, 505.0F, 63.5F, 31.25F});
   const auto stored = [&](int u, int v) {
     const double depth = static_cast<double>(loaded.depth[camera.index(u, v)]);
     return std::lround(depth * 1000.0 / millimetres_a_step);

@@ -30,6 +30,18 @@ class CameraFaults : public CameraOnTheWire {
     return status;
   }
 
+  /// Switches on with one region, goes on to another, and returns what the next request is answered: a bad frame.
+  std::string change_region(const SensorRegion& from, const SensorRegion& to) {
+    switch_on();
+    camera_->set_region(from);
+    connect();
+    EXPECT_TRUE(grab_in_time().ok());
+    camera_->set_region(to);
+    const Status changed = grab_in_time();
+    EXPECT_EQ(changed.code(), StatusCode::bad_frame) << changed.message();
+    return std::string(changed.message());
+  }
+
   /// Asks until a frame comes; every answer must be in time and with one of the codes of a lost camera.
   void recover(const char* fault) {
     const std::int64_t start = monotonic_ns();
@@ -193,26 +205,14 @@ TEST_F(CameraFaults, RegionChangesUnderWay) {
 }
 
 TEST_F(CameraFaults, RegionGrowsUnderWay) {
-  switch_on();
-  camera_->set_region({0, 0, 48, 32});
-  connect();
-  ASSERT_TRUE(grab_in_time().ok());
-  camera_->set_region({0, 0, 96, 64});
-  const Status grown = grab_in_time();
-  EXPECT_EQ(grown.code(), StatusCode::bad_frame) << grown.message();
+  change_region({0, 0, 48, 32}, {0, 0, 96, 64});
   recover("a larger region");
   expect_frame(2);
 }
 
 TEST_F(CameraFaults, RegionMovesUnderWay) {
-  switch_on();
-  camera_->set_region({0, 0, 48, 32});
-  connect();
-  ASSERT_TRUE(grab_in_time().ok());
-  camera_->set_region({20, 10, 48, 32});
-  const Status moved = grab_in_time();
-  EXPECT_EQ(moved.code(), StatusCode::bad_frame) << moved.message();
-  EXPECT_THAT(std::string(moved.message()), HasSubstr("begins at 20, 10 of the sensor"));
+  const std::string message = change_region({0, 0, 48, 32}, {20, 10, 48, 32});
+  EXPECT_THAT(message, HasSubstr("begins at 20, 10 of the sensor"));
   recover("a region that moved");
   EXPECT_EQ(frame_.camera.cx, frames_[0].camera.cx - 20.0F);
   EXPECT_EQ(frame_.camera.cy, frames_[0].camera.cy - 10.0F);

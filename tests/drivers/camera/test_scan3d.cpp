@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/camera/scan3d.hpp"
+#include "tests/core/geometry/expect_camera.hpp"
 
 namespace graspd {
 namespace {
@@ -43,12 +44,7 @@ TEST(Scan3d, TakesAllFromTheCamera) {
   EXPECT_DOUBLE_EQ(made.decoding.offset, 0.02);
   EXPECT_EQ(made.decoding.focal_baseline, 0.0);
   EXPECT_FALSE(made.decoding.has_invalid_value);
-  EXPECT_EQ(made.camera.width, 640);
-  EXPECT_EQ(made.camera.height, 480);
-  EXPECT_EQ(made.camera.fx, 900.0F);
-  EXPECT_EQ(made.camera.fy, 900.0F);
-  EXPECT_EQ(made.camera.cx, 320.5F);
-  EXPECT_EQ(made.camera.cy, 240.25F);
+  expect_same_camera(made.camera, {640, 480, 900.0F, 900.0F, 320.5F, 240.25F});
 }
 
 TEST(Scan3d, KnowsUnits) {

@@ -6,6 +6,7 @@
 
 #include "drivers/files/frame_folder.hpp"
 #include "drivers/files/load_frame.hpp"
+#include "tests/core/geometry/expect_camera.hpp"
 #include "tests/drivers/files/temporary_folder.hpp"
 
 namespace graspd {
@@ -32,13 +33,7 @@ TEST_F(FrameFolder, IsReadBackAsItWasWritten) {
   ASSERT_TRUE(written.ok()) << written.message();
   const Result<LoadedFrame> back = load_frame(path / "depth.png", {});
   ASSERT_TRUE(back.ok()) << back.status().message();
-  const Camera& camera = back.value().camera;
-  EXPECT_EQ(camera.width, 7);
-  EXPECT_EQ(camera.height, 5);
-  EXPECT_FLOAT_EQ(camera.fx, 410.5F);
-  EXPECT_FLOAT_EQ(camera.fy, 409.25F);
-  EXPECT_FLOAT_EQ(camera.cx, 3.25F);
-  EXPECT_FLOAT_EQ(camera.cy, 2.5F);
+  expect_same_camera(back.value().camera, frame().camera);
   for (std::size_t i = 0; i < depth_.size(); ++i) {
     const bool is_lost = depth_[i] > 6.5535F;
     EXPECT_NEAR(back.value().depth[i], is_lost ? 0.0F : depth_[i], 0.00005F + 1e-6F) << i;
