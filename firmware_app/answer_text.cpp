@@ -31,10 +31,10 @@ std::size_t explain_answer(const Answer& answer, std::span<char> text) {
     case ResultCode::ok:
     case ResultCode::dry_run: {
       const Vector3& place = block.pick.translation;
-      return put(text, "%spick %u of part %u: grasp %u at %.1f %.1f %.1f mm in the %s's frame, score %.2f",
+      return put(text, "%spick %u of part %u: grasp %u with tool %u at %.1f %.1f %.1f mm in the %s's frame, score %.2f",
                  block.code == ResultCode::dry_run ? "dry run: would be " : "", unsigned{block.result_index},
-                 unsigned{block.part}, unsigned{block.grasp}, thousandths(place.x()), thousandths(place.y()),
-                 thousandths(place.z()), block.frame == PoseFrame::robot ? "robot" : "camera",
+                 unsigned{block.part}, unsigned{block.grasp}, unsigned{block.tool}, thousandths(place.x()),
+                 thousandths(place.y()), thousandths(place.z()), block.frame == PoseFrame::robot ? "robot" : "camera",
                  static_cast<double>(block.score));
     }
     case ResultCode::empty_bin:

@@ -92,6 +92,7 @@ ListedPick listed_pick(const Capture& capture, const Pick& pick) {
   ListedPick entry;
   entry.part = register_value(capture.banks[instance.bank].part->part_id);
   entry.grasp = register_value(pick.grasp);
+  entry.tool = register_value(pick.tool);
   entry.score = pick.score;
   entry.opening = pick.opening;
   entry.pick = pick.robot_from_tool;
@@ -116,6 +117,7 @@ void put_picks(PickCycle& cycle, const PlcRequest& request, ResultBlock& block) 
   block.part = first.part;
   block.view = register_value(capture.detections.instances[pick.instance].view);
   block.grasp = first.grasp;
+  block.tool = first.tool;
   block.score = first.score;
   block.remaining = register_value(left.size() - count);
   block.result_index = register_value(capture.given + 1);
@@ -138,13 +140,15 @@ void avoid_last_place(PickCycle& cycle) {
   cycle.last_place.reset();
 }
 
-/// Takes what is too near to avoided places out of the picks that the PLC was not told of yet.
-void drop_avoided_picks(PickCycle& cycle) {
+/// Takes what is too near to avoided places, or needs another tool than the one wanted, out of the picks that the PLC
+/// was not told of yet.
+void drop_unwanted_picks(PickCycle& cycle, const PlcRequest& request) {
   Capture& capture = cycle.capture;
   FixedVector<Pick>& picks = cycle.memory.grasp.picks;
   auto* const end = std::remove_if(picks.begin() + capture.given, picks.end(), [&](const Pick& pick) {
-    return is_avoided(cycle.memory.avoided.places(), pick.robot_from_tool.translation,
-                      cycle.settings.grasp.avoid.radius);
+    return (request.tool != 0 && pick.tool != request.tool) ||
+           (request.avoid_last_place && is_avoided(cycle.memory.avoided.places(), pick.robot_from_tool.translation,
+                                                   cycle.settings.grasp.avoid.radius));
   });
   picks.truncate(static_cast<std::size_t>(end - picks.begin()));
   capture.picks.picks = picks.span();
@@ -229,7 +233,7 @@ Answer answer_next(PickCycle& cycle, const PlcRequest& request) {
   Capture& capture = cycle.capture;
   if (Status served = check_served(request, cycle.settings); !served.ok()) return failed(cycle, request, served);
   if (request.avoid_last_place) avoid_last_place(cycle);
-  if (request.avoid_last_place && capture.answered) drop_avoided_picks(cycle);
+  if (capture.answered) drop_unwanted_picks(cycle, request);
   Answer answer{begin_block(request), {}};
   if (capture.answered) put_verdict(capture, answer.block);
   if (capture.answered && capture.given < capture.picks.picks.size()) {

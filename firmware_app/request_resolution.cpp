@@ -1,5 +1,7 @@
 #include "firmware_app/request_resolution.hpp"
 
+#include <algorithm>
+
 #include "drivers/plc/register_map.hpp"
 #include "firmware_app/camera_placement.hpp"
 
@@ -39,6 +41,18 @@ Status take_flange_pose(const PlcRequest& request, const PickSettings& settings,
   return {};
 }
 
+Status select_tool(std::uint16_t number, ToolSet& tools) {
+  if (number == 0) return {};
+  const std::span<const Tool> all = tools.all();
+  const auto wanted = std::find_if(all.begin(), all.end(), [&](const Tool& tool) { return tool.number == number; });
+  if (wanted == all.end()) {
+    return Status::format(StatusCode::bad_request, "no tool of number %u is configured", unsigned{number});
+  }
+  tools.tools[0] = *wanted;
+  tools.count = 1;
+  return {};
+}
+
 Status select_region(const PlcRequest& request, const PickSettings& settings, ResolvedRequest& resolved) {
   if (request.region == 0) return {};
   const bool by_number = request.region != request_region::box;
@@ -74,6 +88,7 @@ Status resolve_request(const PlcRequest& request, const PickSettings& settings, 
   if (Status served = check_served(request, settings); !served.ok()) return served;
   if (Status placed = take_flange_pose(request, settings, resolved); !placed.ok()) return placed;
   if (Status known = select_banks(banks, request.part, resolved.banks); !known.ok()) return known;
+  if (Status known = select_tool(request.tool, resolved.grasp.tools); !known.ok()) return known;
   return select_region(request, settings, resolved);
 }
 

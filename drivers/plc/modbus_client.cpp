@@ -59,7 +59,13 @@ Status ModbusClient::write_request(const ClientRequest& request) {
     return status;
   }
   const std::array<std::uint16_t, 3> more{request.options, request.results_wanted, request.region};
-  return outcome(modbus_write_registers(context_.get(), request_register::options, more.size(), more.data()),
+  if (Status status =
+          outcome(modbus_write_registers(context_.get(), request_register::options, more.size(), more.data()),
+                  "cannot write the request");
+      !status.ok()) {
+    return status;
+  }
+  return outcome(modbus_write_register(context_.get(), request_register::tool, request.tool),
                  "cannot write the request");
 }
 

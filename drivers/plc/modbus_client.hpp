@@ -22,6 +22,7 @@ struct ClientRequest {
   std::uint16_t options = 0;  ///< Bits of request_option.
   std::uint16_t results_wanted = 0;
   std::uint16_t region = 0;
+  std::uint16_t tool = 0;  ///< 0: any.
 };
 
 /// A PLC made of software: connects to a ModbusServer and goes through the handshake as the register

@@ -52,6 +52,7 @@ void encode_list(const ResultBlock& result, NumberKind kind, const BlockFormat& 
     const std::span<std::uint16_t> at = words.subspan(entry_at(i));
     at[pick_entry::part] = entry.part;
     at[pick_entry::grasp] = entry.grasp;
+    at[pick_entry::tool] = entry.tool;
     at[pick_entry::score] = rounded_word(1e4 * static_cast<double>(entry.score));
     put_length(at.subspan(pick_entry::opening), static_cast<double>(entry.opening), kind, format);
     put_pose(at.subspan(pick_entry::pick_pose), entry.pick, kind, format);
@@ -78,6 +79,7 @@ Result<ResultBlock> decode_list(std::span<const std::uint16_t> words, NumberKind
     ListedPick& entry = result.listed[i];
     entry.part = at[pick_entry::part];
     entry.grasp = at[pick_entry::grasp];
+    entry.tool = at[pick_entry::tool];
     entry.score = static_cast<float>(at[pick_entry::score]) / 1e4F;
     entry.opening = static_cast<float>(get_length(at.subspan(pick_entry::opening), kind, own));
     entry.pick = get_pose(at.subspan(pick_entry::pick_pose), kind, own);

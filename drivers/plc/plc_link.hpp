@@ -25,6 +25,7 @@ struct PlcRequest {
   std::uint16_t sequence = 0;        ///< Names this request to every call below; never 0.
   std::uint16_t request_id = 0;      ///< The PLC's own number, to be echoed.
   std::uint16_t part = 0;            ///< 0: any part that is loaded.
+  std::uint16_t tool = 0;            ///< Number of the one tool to pick with; 0: any.
   float minimum_score = -1.0F;       ///< In [0, 1]; negative: every bank's own threshold.
   std::uint16_t results_wanted = 1;  ///< Picks in one answer, 1 to pick_list::entries.
   bool dry_run = false;              ///< Answer with code dry_run instead of ok, and count nothing as picked.

@@ -7,7 +7,7 @@ namespace graspd {
 
 /// The addresses that a PLC sees (protocol addresses, from 0). configs/register-map.md says what each
 /// means; a test holds that page against these tables.
-inline constexpr std::uint16_t register_map_version = 1;
+inline constexpr std::uint16_t register_map_version = 2;
 
 /// Coils, written by the PLC; only their rising edges count.
 namespace coil {
@@ -44,7 +44,8 @@ inline constexpr std::uint16_t results_wanted = 6;
 inline constexpr std::uint16_t region = 7;
 inline constexpr std::uint16_t region_box = 8;
 inline constexpr std::uint16_t flange_pose = 22;
-inline constexpr std::uint16_t count = 36;
+inline constexpr std::uint16_t tool = 36;
+inline constexpr std::uint16_t count = 37;
 }  // namespace request_register
 
 /// The bits of the request register `options`.
@@ -101,9 +102,10 @@ inline constexpr std::uint16_t approach_pose = 62;
 inline constexpr std::uint16_t approach_pose_scaled = 76;
 inline constexpr std::uint16_t part_pose = 90;
 inline constexpr std::uint16_t part_pose_scaled = 104;
-inline constexpr std::uint16_t checksum = 118;
-inline constexpr std::uint16_t sequence_last = 119;
-inline constexpr std::uint16_t count = 120;
+inline constexpr std::uint16_t tool = 118;
+inline constexpr std::uint16_t checksum = 119;
+inline constexpr std::uint16_t sequence_last = 120;
+inline constexpr std::uint16_t count = 121;
 
 inline constexpr std::uint16_t test_word_value = 0x1234;
 inline constexpr float test_float_value = 123.456F;
@@ -126,8 +128,8 @@ inline constexpr std::uint16_t pose_convention = 6;
 inline constexpr std::uint16_t pose_frame = 7;
 inline constexpr std::uint16_t approach_distance = 8;
 inline constexpr std::uint16_t first_entry = 9;
-inline constexpr std::uint16_t entry_size = 19;
-inline constexpr std::uint16_t entries = 6;
+inline constexpr std::uint16_t entry_size = 20;
+inline constexpr std::uint16_t entries = 5;
 inline constexpr std::uint16_t checksum = first_entry + entries * entry_size;
 inline constexpr std::uint16_t sequence_last = checksum + 1;
 inline constexpr std::uint16_t count = sequence_last + 1;
@@ -138,9 +140,10 @@ static_assert(pick_list::count <= 125, "a list must be readable in one request")
 namespace pick_entry {
 inline constexpr std::uint16_t part = 0;
 inline constexpr std::uint16_t grasp = 1;
-inline constexpr std::uint16_t score = 2;
-inline constexpr std::uint16_t opening = 3;
-inline constexpr std::uint16_t pick_pose = 5;
+inline constexpr std::uint16_t tool = 2;
+inline constexpr std::uint16_t score = 3;
+inline constexpr std::uint16_t opening = 4;
+inline constexpr std::uint16_t pick_pose = 6;
 }  // namespace pick_entry
 
 /// Input registers that change at any time, outside the block.

@@ -40,7 +40,7 @@ inline constexpr std::array<BitEntry, discrete_input::count> discrete_input_tabl
     {discrete_input::plc_alive, "plc_alive"},
 }};
 
-inline constexpr std::array<RegisterEntry, 10> request_table{{
+inline constexpr std::array<RegisterEntry, 11> request_table{{
     {request_register::request_id, 1, "request_id", "uint16"},
     {request_register::part, 1, "part", "uint16"},
     {request_register::minimum_score, 1, "minimum_score", "uint16"},
@@ -51,9 +51,10 @@ inline constexpr std::array<RegisterEntry, 10> request_table{{
     {request_register::region, 1, "region", "uint16"},
     {request_register::region_box, 14, "region_box", "number[7]"},
     {request_register::flange_pose, 14, "flange_pose", "number[7]"},
+    {request_register::tool, 1, "tool", "uint16"},
 }};
 
-inline constexpr std::array<RegisterEntry, 38> block_table{{
+inline constexpr std::array<RegisterEntry, 39> block_table{{
     {block::map_version, 1, "map_version", "uint16"},
     {block::sequence_first, 1, "sequence_first", "uint16"},
     {block::request_id, 1, "request_id", "uint16"},
@@ -90,6 +91,7 @@ inline constexpr std::array<RegisterEntry, 38> block_table{{
     {block::approach_pose_scaled, 14, "approach_pose_scaled", "int32[7]"},
     {block::part_pose, 14, "part_pose", "float32[7]"},
     {block::part_pose_scaled, 14, "part_pose_scaled", "int32[7]"},
+    {block::tool, 1, "tool", "uint16"},
     {block::checksum, 1, "checksum", "uint16"},
     {block::sequence_last, 1, "sequence_last", "uint16"},
 }};
@@ -116,13 +118,14 @@ inline constexpr std::array<RegisterEntry, 12> pick_list_table{{
     {pick_list::pose_convention, 1, "pose_convention", "uint16"},
     {pick_list::pose_frame, 1, "pose_frame", "uint16"},
     {pick_list::approach_distance, 1, "approach_distance", "uint16"},
-    {pick_list::first_entry, pick_list::entries* pick_list::entry_size, "entries", "entry[6]"},
+    {pick_list::first_entry, pick_list::entries* pick_list::entry_size, "entries", "entry[5]"},
     {pick_list::checksum, 1, "checksum", "uint16"},
     {pick_list::sequence_last, 1, "sequence_last", "uint16"},
 }};
-inline constexpr std::array<RegisterEntry, 5> pick_entry_table{{
+inline constexpr std::array<RegisterEntry, 6> pick_entry_table{{
     {pick_entry::part, 1, "part", "uint16"},
     {pick_entry::grasp, 1, "grasp", "uint16"},
+    {pick_entry::tool, 1, "tool", "uint16"},
     {pick_entry::score, 1, "score", "uint16"},
     {pick_entry::opening, 2, "opening", "number"},
     {pick_entry::pick_pose, 14, "pick_pose", "number[7]"},

@@ -62,6 +62,7 @@ PlcRequest read_request(std::span<const std::uint16_t> registers, const BlockFor
   }
   request.request_id = registers[request_register::request_id];
   request.part = registers[request_register::part];
+  request.tool = registers[request_register::tool];
   request.minimum_score = score == 0 ? -1.0F : static_cast<float>(score) / 1e4F;
   request.results_wanted = std::max<std::uint16_t>(registers[request_register::results_wanted], 1);
   request.dry_run = (options & request_option::dry_run) != 0;

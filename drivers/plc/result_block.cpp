@@ -56,6 +56,7 @@ void encode(const ResultBlock& result, const BlockFormat& format, std::span<std:
   words[block::part] = result.part;
   words[block::view] = result.view;
   words[block::grasp] = result.grasp;
+  words[block::tool] = result.tool;
   words[block::score] = rounded_word(1e4 * static_cast<double>(result.score));
   words[block::instances_found] = result.instances_found;
   words[block::pickable] = result.pickable;
@@ -87,6 +88,7 @@ Result<ResultBlock> decode(std::span<const std::uint16_t> words, const BlockForm
   result.part = words[block::part];
   result.view = words[block::view];
   result.grasp = words[block::grasp];
+  result.tool = words[block::tool];
   result.score = static_cast<float>(words[block::score]) / 1e4F;
   result.instances_found = words[block::instances_found];
   result.pickable = words[block::pickable];

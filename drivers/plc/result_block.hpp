@@ -23,7 +23,8 @@ inline constexpr std::size_t block_stage_count = 8;
 struct ListedPick {
   std::uint16_t part = 0;
   std::uint16_t grasp = 0;
-  float score = 0;  ///< In [0, 1].
+  std::uint16_t tool = 0;  ///< Tool::number.
+  float score = 0;         ///< In [0, 1].
   float opening = 0;
   RigidTransform pick;  ///< The tool when it holds the part.
 };
@@ -39,7 +40,8 @@ struct ResultBlock {
   std::uint16_t part = 0;
   std::uint16_t view = 0;
   std::uint16_t grasp = 0;
-  float score = 0;  ///< In [0, 1].
+  std::uint16_t tool = 0;  ///< Tool::number.
+  float score = 0;         ///< In [0, 1].
   std::uint16_t instances_found = 0;
   std::uint16_t pickable = 0;
   std::uint16_t remaining = 0;     ///< Pickable instances left after those in this answer.

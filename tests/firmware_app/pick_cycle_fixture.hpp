@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "drivers/system/clock.hpp"
+#include "firmware_app/answer_text.hpp"
 #include "firmware_app/detection_session.hpp"
 #include "firmware_app/pick_cycle.hpp"
 #include "tests/firmware_app/scripted_plc.hpp"
@@ -16,6 +19,13 @@ namespace graspd {
 inline const std::vector<std::byte>& shared_angle_bar_bank() {
   static const std::vector<std::byte> bytes = angle_bar_bank();
   return bytes;
+}
+
+/// What the journal says of an answer.
+inline std::string explained(const Answer& answer) {
+  std::array<char, 640> text{};
+  const std::size_t length = explain_answer(answer, text);
+  return {text.data(), length};
 }
 
 /// A pick cycle over a scripted camera and PLC, on memory as the daemon would take it.

@@ -2,25 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <limits>
-#include <string>
 
 #include "core/geometry/symmetry.hpp"
-#include "firmware_app/answer_text.hpp"
-#include "firmware_app/request_resolution.hpp"
 #include "tests/firmware_app/pick_cycle_fixture.hpp"
 
 namespace graspd {
 namespace {
 
 using testing::HasSubstr;
-
-std::string explained(const Answer& answer) {
-  std::array<char, 640> text{};
-  const std::size_t length = explain_answer(answer, text);
-  return {text.data(), length};
-}
 
 /// Metres from the pose in the block to the nearest of the scene's poses.
 float nearest(const RigidTransform& pose, const RenderedScene& scene) {
@@ -65,7 +54,7 @@ TEST(PickCycle, PicksAPartWhereItLies) {
   EXPECT_LT((tool - block.pick.translation).norm(), 1e-4F);
   EXPECT_FLOAT_EQ(block.opening, 0.020F);
   EXPECT_GT(block.stage_time[static_cast<std::size_t>(BlockStage::total)], 0.0F);
-  EXPECT_THAT(explained(answer), HasSubstr("pick 1 of part 7: grasp 1 at "));
+  EXPECT_THAT(explained(answer), HasSubstr("pick 1 of part 7: grasp 1 with tool 1 at "));
 }
 
 TEST(PickCycle, NextGivesTheOtherPartAndThenNothing) {
@@ -139,15 +128,6 @@ TEST(PickCycle, FoundButNotPickableSaysWhy) {
   EXPECT_EQ(explained(answer), "no pick: 2 found, but none can be gripped; mostly because of: opening");
 }
 
-TEST(PickCycle, UnknownPartIsABadRequest) {
-  PickCycleFixture fixture(angle_bar_scene());
-  const Answer answer = fixture.ask(RequestKind::capture, 99);
-  EXPECT_EQ(answer.block.code, ResultCode::bad_request);
-  EXPECT_EQ(fixture.source.sequence, 0U) << "no frame is taken for it";
-  EXPECT_EQ(explained(answer), "no pick: no bank of part number 99 is loaded");
-  EXPECT_EQ(fixture.ask(RequestKind::capture, 7).block.code, ResultCode::ok);
-}
-
 TEST(PickCycle, StaleFrameIsNotUsed) {
   PickCycleFixture fixture(angle_bar_scene());
   fixture.source.captured_ns = monotonic_ns() - 2'000'000'000;
@@ -193,215 +173,6 @@ TEST(PickCycle, PosesComeInTheRobotsFrameWhenCalibrated) {
   EXPECT_EQ(in_robot.frame, PoseFrame::robot);
   const RigidTransform expected = fixture.cycle.settings.grasp.robot_from_camera * in_camera.part_pose;
   EXPECT_LT((expected.translation - in_robot.part_pose.translation).norm(), 1e-4F);
-}
-
-TEST(PickCycle, GivesAsManyResultsAsAreWanted) {
-  PickCycleFixture fixture(angle_bar_scene());
-  PlcRequest request;
-  request.results_wanted = 6;
-  const ResultBlock both = fixture.ask(request).block;
-  ASSERT_EQ(both.code, ResultCode::ok);
-  EXPECT_EQ(both.listed_count, 2);
-  EXPECT_EQ(both.remaining, 0);
-  EXPECT_EQ(both.result_index, 1);
-  EXPECT_EQ(both.listed[0].pick.translation, both.pick.translation) << "the first is the one in the block";
-  EXPECT_GT((both.listed[1].pick.translation - both.pick.translation).norm(), 0.05F);
-  EXPECT_EQ(both.listed[1].part, 7);
-  EXPECT_FLOAT_EQ(both.approach_distance, fixture.cycle.settings.grasp.approach_distance);
-  EXPECT_EQ(fixture.ask(RequestKind::next).block.code, ResultCode::nothing_left);
-  EXPECT_EQ(fixture.ask().block.listed_count, 1);
-}
-
-TEST(PickCycle, DryRunShowsAPickAndCountsNothing) {
-  PickCycleFixture fixture(angle_bar_scene());
-  PlcRequest request;
-  request.dry_run = true;
-  const Answer dry = fixture.ask(request);
-  EXPECT_EQ(dry.block.code, ResultCode::dry_run);
-  EXPECT_FALSE(has_pick(dry.block));
-  EXPECT_TRUE(has_poses(dry.block));
-  EXPECT_FALSE(is_fault(dry.block.code));
-  EXPECT_THAT(explained(dry), HasSubstr("dry run: would be pick 1 of part 7"));
-  const ResultBlock next = fixture.ask(RequestKind::next).block;
-  ASSERT_EQ(next.code, ResultCode::ok);
-  EXPECT_EQ(next.result_index, 1);
-  EXPECT_EQ(next.pick.translation, dry.block.pick.translation);
-}
-
-TEST(PickCycle, LooksOnlyInsideTheRegion) {
-  PickCycleFixture fixture(angle_bar_scene());
-  const std::vector<RigidTransform>& poses = fixture.source.scene.poses;
-  const auto box_about = [](const Vector3& middle) {
-    RequestBox box;
-    box.reference_from_box.translation = middle;
-    box.half_size = Vector3::Constant(0.06F);
-    return box;
-  };
-  fixture.cycle.settings.regions = {box_about({0, 0, 5}), box_about(poses[1].translation)};
-  PlcRequest request;
-  request.region = 2;
-  const ResultBlock numbered = fixture.ask(request).block;
-  ASSERT_EQ(numbered.code, ResultCode::ok);
-  EXPECT_EQ(numbered.instances_found, 1);
-  EXPECT_LT((numbered.part_pose.translation - poses[1].translation).norm(), 0.002F);
-  request.region = 1;
-  EXPECT_EQ(fixture.ask(request).block.code, ResultCode::empty_bin) << "nothing lies five metres away";
-
-  request.region = request_region::box;
-  request.box = box_about(poses[0].translation);
-  const ResultBlock boxed = fixture.ask(request).block;
-  ASSERT_EQ(boxed.code, ResultCode::ok);
-  EXPECT_LT((boxed.part_pose.translation - poses[0].translation).norm(), 0.002F);
-  EXPECT_EQ(fixture.ask().block.instances_found, 2) << "the next request has no region";
-}
-
-TEST(PickCycle, RequestsThatMeanNothingAreBadRequests) {
-  PickCycleFixture fixture(angle_bar_scene());
-  const auto message = [&](const PlcRequest& request) {
-    const Answer answer = fixture.ask(request);
-    EXPECT_EQ(answer.block.code, ResultCode::bad_request);
-    EXPECT_FALSE(has_poses(answer.block));
-    return explained(answer);
-  };
-  PlcRequest region;
-  region.region = 3;
-  EXPECT_EQ(message(region), "no pick: region 3 is not configured: there are 0");
-  PlcRequest box;
-  box.region = request_region::box;
-  EXPECT_THAT(message(box), HasSubstr("region_box in the request is no box"));
-  box.box.half_size.setConstant(std::numeric_limits<float>::quiet_NaN());
-  EXPECT_THAT(message(box), HasSubstr("region_box in the request is no box"));
-  PlcRequest flange;
-  flange.has_flange_pose = true;
-  flange.robot_from_flange.translation.x() = std::numeric_limits<float>::infinity();
-  EXPECT_THAT(message(flange), HasSubstr("flange_pose in the request is no pose"));
-  PlcRequest malformed;
-  malformed.well_formed = false;
-  EXPECT_THAT(message(malformed), HasSubstr("means nothing"));
-  malformed.kind = RequestKind::next;
-  EXPECT_THAT(message(malformed), HasSubstr("means nothing"));
-  PlcRequest unserved;
-  unserved.save_snapshot = true;
-  EXPECT_THAT(message(unserved), HasSubstr("output.snapshots is not configured"));
-  unserved.kind = RequestKind::next;
-  EXPECT_THAT(message(unserved), HasSubstr("output.snapshots is not configured"));
-  fixture.cycle.settings.camera_on_flange = true;
-  EXPECT_THAT(message({}), HasSubstr("set flange_pose_given in options and write flange_pose"));
-  EXPECT_THAT(message(flange), HasSubstr("flange_pose in the request is no pose"));
-  flange.robot_from_flange = {2.0F * Matrix3::Identity(), Vector3::Zero()};
-  EXPECT_THAT(message(flange), HasSubstr("flange_pose in the request is no pose"));
-  EXPECT_EQ(fixture.source.sequence, 0U) << "no frame is taken for any of them";
-}
-
-/// A request from a robot whose flange looks down on the bin, leaning by `lean` radians.
-PlcRequest request_from(float lean, const Vector3& place) {
-  PlcRequest request;
-  request.has_flange_pose = true;
-  request.robot_from_flange = {Eigen::AngleAxisf(3.14159265F + lean, Vector3::UnitX()).toRotationMatrix(), place};
-  return request;
-}
-
-TEST(PickCycle, CameraOnTheFlangeGoesWithTheRobot) {
-  PickCycleFixture fixture(angle_bar_scene(1));
-  const ResultBlock in_camera = fixture.ask().block;
-  PickSettings& settings = fixture.cycle.settings;
-  settings.calibrated = settings.camera_on_flange = true;
-  settings.flange_from_camera.translation = Vector3(0.0F, 0.06F, 0.04F);
-  for (const PlcRequest& request :
-       {request_from(0.04F, Vector3(0.4F, 0.1F, 0.9F)), request_from(-0.1F, Vector3(-0.3F, 0.5F, 1.1F))}) {
-    const RigidTransform robot_from_camera = request.robot_from_flange * settings.flange_from_camera;
-    const ResultBlock in_robot = fixture.ask(request).block;
-    ASSERT_EQ(in_robot.code, ResultCode::ok);
-    EXPECT_EQ(in_robot.frame, PoseFrame::robot);
-    const Vector3 expected = robot_from_camera * in_camera.part_pose.translation;
-    EXPECT_LT((expected - in_robot.part_pose.translation).norm(), 1e-4F);
-    const Vector3 tool = in_robot.part_pose * angle_bar_grasp().part_from_tool.translation;
-    EXPECT_LT((tool - in_robot.pick.translation).norm(), 1e-4F);
-    EXPECT_LT((fixture.cycle.capture.robot_from_camera.translation - robot_from_camera.translation).norm(), 1e-6F)
-        << "what pictures are drawn with";
-  }
-}
-
-TEST(PickCycle, BoxAndRegionStandStillWhenTheFlangeMoves) {
-  PickCycleFixture fixture(angle_bar_scene());
-  PickSettings& settings = fixture.cycle.settings;
-  settings.calibrated = settings.camera_on_flange = true;
-  settings.robot_from_box.translation = Vector3(0.3F, 0.0F, 0.1F);
-  PlcRequest request = request_from(0.04F, Vector3(0.4F, 0.1F, 0.9F));
-  const RigidTransform camera_from_robot = inverse(request.robot_from_flange);
-  ResolvedRequest resolved;
-  ASSERT_TRUE(resolve_request(request, settings, fixture.banks, resolved).ok());
-  const Vector3 box_in_camera = camera_from_robot * settings.robot_from_box.translation;
-  EXPECT_LT((resolved.detect.preprocess.box_from_camera * box_in_camera).norm(), 1e-5F);
-
-  const RigidTransform& part = fixture.source.scene.poses[1];
-  request.region = request_region::box;
-  request.box.reference_from_box.translation = request.robot_from_flange * part.translation;
-  request.box.half_size = Vector3::Constant(0.06F);
-  const ResultBlock block = fixture.ask(request).block;
-  ASSERT_EQ(block.code, ResultCode::ok);
-  EXPECT_EQ(block.instances_found, 1);
-  EXPECT_LT((block.part_pose.translation - request.box.reference_from_box.translation).norm(), 0.002F);
-}
-
-PlcRequest avoiding(RequestKind kind = RequestKind::capture) {
-  PlcRequest request;
-  request.kind = kind;
-  request.avoid_last_place = true;
-  return request;
-}
-
-TEST(PickCycle, PlaceOfAFailedPickIsLeftAloneForAWhile) {
-  PickCycleFixture fixture(angle_bar_scene());
-  fixture.cycle.settings.grasp.avoid.runs = 2;
-  EXPECT_EQ(fixture.ask(avoiding()).block.pickable, 2) << "before any pick there is nothing to avoid";
-  const Vector3 first = fixture.ask().block.pick.translation;
-  for (const PlcRequest& request : {avoiding(), PlcRequest{}}) {
-    const ResultBlock other = fixture.ask(request).block;
-    ASSERT_EQ(other.code, ResultCode::ok);
-    EXPECT_EQ(other.pickable, 1);
-    EXPECT_GT((other.pick.translation - first).norm(), 0.05F);
-  }
-  EXPECT_LT((fixture.ask().block.pick.translation - first).norm(), 0.01F);
-}
-
-TEST(PickCycle, AvoidedEverywhereIsNotPickable) {
-  PickCycleFixture fixture(angle_bar_scene(1));
-  ASSERT_EQ(fixture.ask().block.code, ResultCode::ok);
-  const Answer answer = fixture.ask(avoiding());
-  EXPECT_EQ(answer.block.code, ResultCode::not_pickable);
-  EXPECT_EQ(answer.block.reason, ResultReason::avoided);
-  EXPECT_FALSE(has_poses(answer.block));
-}
-
-TEST(PickCycle, FailedPlaceIsRememberedWhenTheNextCaptureFails) {
-  PickCycleFixture fixture(angle_bar_scene());
-  const Vector3 first = fixture.ask().block.pick.translation;
-  fixture.source.failure = Status(StatusCode::camera_lost, "the cable is out");
-  EXPECT_EQ(fixture.ask(avoiding()).block.code, ResultCode::camera_lost);
-  fixture.source.failure = {};
-  const ResultBlock other = fixture.ask().block;
-  ASSERT_EQ(other.code, ResultCode::ok);
-  EXPECT_GT((other.pick.translation - first).norm(), 0.05F);
-}
-
-TEST(PickCycle, DryRunIsNoPickThatCouldHaveFailed) {
-  PickCycleFixture fixture(angle_bar_scene());
-  PlcRequest dry;
-  dry.dry_run = true;
-  EXPECT_EQ(fixture.ask(dry).block.code, ResultCode::dry_run);
-  EXPECT_EQ(fixture.ask(avoiding()).block.pickable, 2);
-}
-
-TEST(PickCycle, NextLeavesOutWhatIsNearAFailedPick) {
-  PickCycleFixture fixture(angle_bar_scene());
-  ASSERT_EQ(fixture.ask().block.code, ResultCode::ok);
-  EXPECT_EQ(fixture.ask(avoiding(RequestKind::next)).block.code, ResultCode::ok) << "the other part is far enough";
-
-  fixture.cycle.memory.avoided.clear();
-  fixture.cycle.settings.grasp.avoid.radius = 1.0F;
-  ASSERT_EQ(fixture.ask().block.code, ResultCode::ok);
-  EXPECT_EQ(fixture.ask(avoiding(RequestKind::next)).block.code, ResultCode::nothing_left);
 }
 
 TEST(PickCycle, WarmUpLeavesNothingToPick) {

@@ -74,7 +74,7 @@ class Variables:
             for name in names.split(","):
                 setattr(self, name.strip(), Timer() if kind == "TON" else 0 if kind in ("INT", "UINT") else False)
         self.Timeout = 5.0
-        self.Block = [0] * 120
+        self.Block = [0] * 121
 
 
 class ServerSide:
@@ -93,7 +93,7 @@ class ServerSide:
         return self.client.read_discrete_inputs(0, 9).bits[:9]
 
     def block(self):
-        return self.client.read_input_registers(0, 120).registers
+        return self.client.read_input_registers(0, 121).registers
 
     def coils(self, levels):
         assert not self.client.write_coils(0, levels).isError()
@@ -127,7 +127,7 @@ class ClientSide:
         return [bool(status >> bit & 1) for bit in range(9)]
 
     def block(self):
-        return self.memory.getValues(3, 1000, 120)
+        return self.memory.getValues(3, 1000, 121)
 
     def coils(self, levels):
         self.memory.setValues(15, 0, [int(level) for level in levels])

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -23,6 +24,12 @@ using namespace std::chrono_literals;
 
 /// How long a test waits for what must come: a busy machine takes its time.
 constexpr std::chrono::milliseconds patience = 10s;
+constexpr std::int64_t patience_ns = std::chrono::nanoseconds(patience).count();
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// A request for one input register; its answer has 11 bytes.
+inline const Bytes read_one_input{0, 9, 0, 0, 0, 6, 1, 4, 0, 0, 0, 1};
 
 /// A server on a free port of the loopback interface.
 inline std::unique_ptr<ModbusServer> start_server(ServerOptions options = {}) {
@@ -47,6 +54,7 @@ inline ResultBlock pick_for(const PlcRequest& request) {
   result.request_id = request.request_id;
   result.code = ResultCode::ok;
   result.part = request.part;
+  result.tool = request.tool;
   result.score = 0.9F;
   result.opening = n / 1000.0F;
   result.pick.translation = {n / 1000.0F, 0, 0.5F};
@@ -98,13 +106,13 @@ class RawClient {
   RawClient& operator=(const RawClient&) = delete;
   ~RawClient() { close(descriptor_); }
 
-  void send_bytes(const std::vector<std::uint8_t>& bytes) const {
+  void send_bytes(const Bytes& bytes) const {
     EXPECT_EQ(send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
   }
   /// What arrives within `time`; empty when nothing does or the server hung up.
-  [[nodiscard]] std::vector<std::uint8_t> receive_bytes(std::chrono::milliseconds time = patience) const {
+  [[nodiscard]] Bytes receive_bytes(std::chrono::milliseconds time = patience) const {
     pollfd waiting{descriptor_, POLLIN, 0};
-    std::vector<std::uint8_t> bytes(512);
+    Bytes bytes(512);
     if (poll(&waiting, 1, static_cast<int>(time.count())) != 1) return {};
     const ssize_t size = recv(descriptor_, bytes.data(), bytes.size(), 0);
     bytes.resize(size > 0 ? static_cast<std::size_t>(size) : 0);

@@ -28,16 +28,16 @@ def main():
             assert time.monotonic() < end, "no answer"
         inputs = client.read_discrete_inputs(0, 9).bits
         assert inputs[RESULT_VALID] and not inputs[ERROR]
-        block = client.read_input_registers(0, 120).registers
-        assert block[1] == block[119] and block[2] == request_id and block[3] == 0 and block[6] == 3
+        block = client.read_input_registers(0, 121).registers
+        assert block[1] == block[120] and block[2] == request_id and block[3] == 0 and block[6] == 3
         assert abs(float_at(block, 26) - 123.456) < 1e-4
         assert abs(float_at(block, 34) - block[1]) < 1e-3, "x of the pick is the sequence, in millimetres"
-        assert client.read_holding_registers(1000, 120).registers == block
+        assert client.read_holding_registers(1000, 121).registers == block
         assert not client.write_coils(TRIGGER, [False, True]).isError()
         assert not client.write_coils(TRIGGER, [False, False]).isError()
         assert not client.read_discrete_inputs(DONE, 1).bits[0]
     assert client.write_register(1000, 1).isError(), "the block must not be writable"
-    assert client.read_input_registers(0, 121).isError()
+    assert client.read_input_registers(0, 122).isError()
     client.close()
 
 

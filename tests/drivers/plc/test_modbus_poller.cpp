@@ -60,6 +60,7 @@ TEST(ModbusPoller, GoesThroughTheHandshake) {
     ASSERT_TRUE(shows(plc, discrete_input::ready));
     plc.set_register(request_register::request_id, id);
     plc.set_register(request_register::part, 3);
+    plc.set_register(request_register::tool, 6);
     plc.set_coil(coil::trigger, true);
     ASSERT_TRUE(shows(plc, discrete_input::done));
     EXPECT_TRUE(plc.has(discrete_input::result_valid));
@@ -67,6 +68,7 @@ TEST(ModbusPoller, GoesThroughTheHandshake) {
     ASSERT_TRUE(block.ok()) << block.status().message();
     EXPECT_EQ(block.value().request_id, id);
     EXPECT_EQ(block.value().part, 3);
+    EXPECT_EQ(block.value().tool, 6);
     EXPECT_EQ(block.value().sequence, id - 99);
     EXPECT_NEAR(block.value().pick.translation.x(), static_cast<float>(block.value().sequence) / 1000.0F, 1e-6F);
     acknowledge(plc);

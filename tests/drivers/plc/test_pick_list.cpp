@@ -10,7 +10,7 @@ namespace {
 
 using Words = std::array<std::uint16_t, pick_list::count>;
 
-[[nodiscard]] ResultBlock six_picks() {
+[[nodiscard]] ResultBlock five_picks() {
   ResultBlock result;
   result.sequence = 12;
   result.request_id = 34;
@@ -25,6 +25,7 @@ using Words = std::array<std::uint16_t, pick_list::count>;
     ListedPick& entry = result.listed[i];
     entry.part = static_cast<std::uint16_t>(i + 1);
     entry.grasp = static_cast<std::uint16_t>(10 + i);
+    entry.tool = static_cast<std::uint16_t>(20 + i);
     entry.score = n / 10;
     entry.opening = n / 100;
     entry.pick = {Eigen::AngleAxisf(n / 3, Vector3(1, n, 2).normalized()).toRotationMatrix(), {n / 10, -n / 7, 0.8F}};
@@ -40,7 +41,7 @@ using Words = std::array<std::uint16_t, pick_list::count>;
 }
 
 TEST(PickList, ReadsBackInEveryFormat) {
-  const ResultBlock result = six_picks();
+  const ResultBlock result = five_picks();
   for (const NumberKind kind : {NumberKind::floating, NumberKind::scaled}) {
     for (const WordOrder order : {WordOrder::abcd, WordOrder::cdab, WordOrder::badc, WordOrder::dcba}) {
       for (std::uint16_t convention = 1; convention <= pose_convention_count; ++convention) {
@@ -55,11 +56,12 @@ TEST(PickList, ReadsBackInEveryFormat) {
         EXPECT_EQ(back.value().remaining, 5);
         EXPECT_EQ(back.value().frame, PoseFrame::robot);
         EXPECT_FLOAT_EQ(back.value().approach_distance, 0.1F);
-        ASSERT_EQ(back.value().listed_count, 6);
-        for (std::size_t i = 0; i < 6; ++i) {
+        ASSERT_EQ(back.value().listed_count, 5);
+        for (std::size_t i = 0; i < 5; ++i) {
           const ListedPick& entry = back.value().listed[i];
           EXPECT_EQ(entry.part, i + 1);
           EXPECT_EQ(entry.grasp, 10 + i);
+          EXPECT_EQ(entry.tool, 20 + i);
           EXPECT_NEAR(entry.score, result.listed[i].score, 1e-4F);
           EXPECT_NEAR(entry.opening, result.listed[i].opening, 1e-6F);
           EXPECT_LT((entry.pick.translation - result.listed[i].pick.translation).norm(), 2e-6F);
@@ -71,9 +73,9 @@ TEST(PickList, ReadsBackInEveryFormat) {
 }
 
 TEST(PickList, IsEmptyWithoutAVerifiedPick) {
-  ResultBlock failed = six_picks();
+  ResultBlock failed = five_picks();
   failed.code = ResultCode::not_pickable;
-  ResultBlock unverified = six_picks();
+  ResultBlock unverified = five_picks();
   unverified.verified = false;
   for (const ResultBlock& bad : {failed, unverified}) {
     const Words words = encoded(bad);
@@ -84,13 +86,13 @@ TEST(PickList, IsEmptyWithoutAVerifiedPick) {
 }
 
 TEST(PickList, EndsBeforeWhatIsNotFinite) {
-  ResultBlock result = six_picks();
+  ResultBlock result = five_picks();
   result.listed[3].pick.translation.y() = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(encoded(result)[pick_list::picks], 3);
 }
 
 TEST(PickList, RefusesTornAndDamagedLists) {
-  const Words good = encoded(six_picks(), NumberKind::scaled);
+  const Words good = encoded(five_picks(), NumberKind::scaled);
   ASSERT_TRUE(decode_list(good, NumberKind::scaled, {}).ok());
   for (std::size_t i = 0; i < good.size(); ++i) {
     Words bad = good;

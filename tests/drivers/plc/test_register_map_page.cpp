@@ -59,7 +59,7 @@ TEST(RegisterMapPage, TypesFillTheirRegisters) {
   const auto words = [](std::string_view type) {
     if (type == "uint16") return 1;
     if (type == "float32" || type == "int32" || type == "number") return 2;
-    if (type == "entry[6]") return pick_list::entries * pick_list::entry_size;
+    if (type == "entry[5]") return pick_list::entries * pick_list::entry_size;
     return type == "float32[7]" || type == "int32[7]" || type == "number[7]" ? 14 : 0;
   };
   for (const RegisterEntry& entry : request_table) EXPECT_EQ(entry.words, words(entry.type)) << entry.name;

@@ -15,6 +15,7 @@ TEST(RequestWords, ZerosAskForNothingSpecial) {
   const PlcRequest request = read_request(Words{}, {});
   EXPECT_TRUE(request.well_formed);
   EXPECT_EQ(request.part, 0);
+  EXPECT_EQ(request.tool, 0);
   EXPECT_LT(request.minimum_score, 0);
   EXPECT_EQ(request.results_wanted, 1);
   EXPECT_FALSE(request.dry_run);

@@ -28,6 +28,7 @@ using Words = std::array<std::uint16_t, block::count>;
   result.part = 3;
   result.view = 12;
   result.grasp = 2;
+  result.tool = 4;
   result.score = 0.8765F;
   result.instances_found = 6;
   result.pickable = 4;
@@ -75,6 +76,7 @@ TEST(ResultBlock, ReadsBackInEveryFormat) {
           EXPECT_EQ(back.value().sequence, result.sequence);
           EXPECT_EQ(back.value().request_id, result.request_id);
           EXPECT_EQ(back.value().flags, result.flags);
+          EXPECT_EQ(back.value().tool, result.tool);
           EXPECT_EQ(back.value().remaining, result.remaining);
           EXPECT_EQ(back.value().frame, PoseFrame::robot);
           EXPECT_NEAR(back.value().score, result.score, 1e-4F);
@@ -122,7 +124,7 @@ TEST(ResultBlock, CarriesNoPoseUnlessItIsVerified) {
   for (const ResultBlock& bad : {result, failed, infinite}) {
     EXPECT_FALSE(has_pick(bad));
     const Words words = encoded(bad);
-    for (std::size_t i = block::opening; i < block::checksum; ++i) EXPECT_EQ(words[i], 0) << i;
+    for (std::size_t i = block::opening; i < block::tool; ++i) EXPECT_EQ(words[i], 0) << i;
   }
 }
 
