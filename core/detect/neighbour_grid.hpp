@@ -11,7 +11,7 @@ namespace graspd {
 /// Oriented points column by column, as vector instructions take them. Each column is `padding` longer than there are
 /// points, so that whole blocks can be read.
 struct PointColumns {
-  static constexpr std::size_t padding = 16;
+  static constexpr std::size_t padding = 32;
   std::span<float> x, y, z, normal_x, normal_y, normal_z;
 };
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <random>
@@ -101,10 +102,15 @@ struct ExpectedVotes {
   }
 };
 
+std::vector<InstructionSet> supported_sets() {
+  std::vector<InstructionSet> sets;
+  std::copy_if(every_instruction_set.begin(), every_instruction_set.end(), std::back_inserter(sets), is_supported);
+  return sets;
+}
+
 class VotingWith : public testing::TestWithParam<InstructionSet> {};
 
 TEST_P(VotingWith, EveryVoteIsCountedOnceAndInItsPlace) {
-  if (!is_supported(GetParam())) GTEST_SKIP() << "this processor lacks the instructions";
   std::mt19937 random(7);
   const VotingBank made(random);
   const RigidTransform pose{Eigen::AngleAxisf(0.7F, Vector3(1, 2, 3).normalized()).toRotationMatrix(),
@@ -140,7 +146,7 @@ TEST_P(VotingWith, EveryVoteIsCountedOnceAndInItsPlace) {
   EXPECT_GT(work.votes, 100000U);
 }
 
-INSTANTIATE_TEST_SUITE_P(InstructionSets, VotingWith, testing::ValuesIn(every_instruction_set),
+INSTANTIATE_TEST_SUITE_P(InstructionSets, VotingWith, testing::ValuesIn(supported_sets()),
                          [](const auto& set) -> std::string {
                            switch (set.param) {
                              case InstructionSet::baseline:
