@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 namespace graspd {
 
@@ -28,13 +29,47 @@ Eigen::Vector2f outward(const SceneMap& map, const RenderedModel& model, int u, 
   return ends ? sum : Eigen::Vector2f::Zero();
 }
 
+constexpr int block = 64;
+
+/// Marks those cells of row `v` from `first` on at which the surface may end: a neighbour beyond the rectangle, or not
+/// covered, or a step behind. Most cells are inside, and found to be so many at once.
+void mark_ends(const SceneMap& map, const RenderedModel& model, int first, int v, int count,
+               std::array<std::uint32_t, block>& ends) {
+  const int width = model.rectangle.width;
+  const float* const row = model.front.data() + model.camera.index(first, v);
+  const bool border_row = v == 0 || v == model.rectangle.height - 1;
+  for (int k = 0; k < count; ++k) ends[static_cast<std::size_t>(k)] = row[k] != 0.0F ? 1 : 0;
+  if (border_row) return;
+  const auto smaller = [](float a, float b) { return a < b ? a : b; };
+  const auto larger = [](float a, float b) { return a > b ? a : b; };
+  const int inner_end = std::min(count, width - 1 - first);
+  for (int k = first == 0 ? 1 : 0; k < inner_end; ++k) {
+    const float* const above = row + k - width;
+    const float* const here = row + k;
+    const float* const below = row + k + width;
+    const float lowest = smaller(smaller(smaller(above[-1], above[0]), smaller(above[1], here[-1])),
+                                 smaller(smaller(here[1], below[-1]), smaller(below[0], below[1])));
+    const float highest = larger(larger(larger(above[-1], above[0]), larger(above[1], here[-1])),
+                                 larger(larger(here[1], below[-1]), larger(below[0], below[1])));
+    const std::uint32_t covered = here[0] != 0.0F ? 1 : 0;
+    const std::uint32_t open = lowest == 0.0F ? 1 : 0;
+    const std::uint32_t steps = highest - here[0] < map.surface_step(here[0]) ? 0 : 1;
+    ends[static_cast<std::size_t>(k)] = covered & (open | steps);
+  }
+}
+
 template <class Visit>
 void for_each_contour_cell(const SceneMap& map, const RenderedModel& model, Visit visit) {
+  std::array<std::uint32_t, block> ends;
   for (int v = 0; v < model.rectangle.height; ++v) {
-    for (int u = 0; u < model.rectangle.width; ++u) {
-      if (model.front[model.camera.index(u, v)] == 0.0F) continue;
-      const Eigen::Vector2f direction = outward(map, model, u, v);
-      if (direction.squaredNorm() > 0.1F) visit(u, v, direction);
+    for (int first = 0; first < model.rectangle.width; first += block) {
+      const int count = std::min(block, model.rectangle.width - first);
+      mark_ends(map, model, first, v, count, ends);
+      for (int k = 0; k < count; ++k) {
+        if (ends[static_cast<std::size_t>(k)] == 0) continue;
+        const Eigen::Vector2f direction = outward(map, model, first + k, v);
+        if (direction.squaredNorm() > 0.1F) visit(first + k, v, direction);
+      }
     }
   }
 }

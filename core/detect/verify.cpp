@@ -45,14 +45,16 @@ struct Verdict {
 
 Verdict judge(const MapCell& cell, const RenderedModel& model, int u, int v, float tolerance) {
   if (!cell.measured()) return {};
-  const float depth = model.front[model.camera.index(u, v)];
+  // Along a grazing ray a small gap between surfaces looks long; below this it is noise of the rim.
+  constexpr float least_slope = 0.25F;
+  const float gap = cell.point.z() - model.front[model.camera.index(u, v)];
+  const CellVerdict apart = gap > 0.0F ? CellVerdict::behind : CellVerdict::occluded;
+  if (std::abs(gap) * least_slope > tolerance) return {apart, std::abs(gap)};
   const Vector3 normal = rendered_normal(model, u, v);
   const Vector3 ray = model.camera.point(static_cast<float>(u), static_cast<float>(v), 1.0F);
-  // Along a grazing ray a small gap between surfaces looks long; below 0.25 it is noise of the rim.
-  const float slope = normal.isZero() ? 1.0F : std::max(0.25F, std::abs(normal.dot(ray)) / ray.norm());
-  const float gap = cell.point.z() - depth;
+  const float slope = normal.isZero() ? 1.0F : std::max(least_slope, std::abs(normal.dot(ray)) / ray.norm());
   const float distance = std::abs(gap) * slope;
-  if (distance > tolerance) return {gap > 0.0F ? CellVerdict::behind : CellVerdict::occluded, distance};
+  if (distance > tolerance) return {apart, distance};
   if (cell.foreground == 0) return {CellVerdict::contradicted, distance};
   const bool agrees = normal.isZero() || !cell.has_normal() || normal.dot(cell.normal) > same_normal;
   return {agrees ? CellVerdict::confirmed : CellVerdict::contradicted, distance};
@@ -175,10 +177,11 @@ RenderedModel render_model(const SceneMap& map, const Bank& bank, const RigidTra
   }
   if (touches_border(model.rectangle, map.camera)) model.inside = share_inside(map, bank, camera_from_part);
   model.front = front.first(cells);
-  render_depth(bank.mesh, camera_from_part, model.camera, model.front);
   if (back.size() >= cells) {
     model.back = back.first(cells);
-    render_depth(bank.mesh, camera_from_part, model.camera, model.back, RenderedSurface::farthest);
+    render_both_surfaces(bank.mesh, camera_from_part, model.camera, model.front, model.back);
+  } else {
+    render_depth(bank.mesh, camera_from_part, model.camera, model.front);
   }
   return model;
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -24,30 +26,23 @@ ScreenPoint to_screen(const Vector3& p, const Camera& camera) {
           inverse_z};
 }
 
-/// An edge of a triangle, from its upper to its lower end. The ends are put in one order, so the two
-/// triangles that share an edge get the same crossings to the last bit and leave no gap.
+/// An edge of a triangle, from its upper to its lower end. The ends come in one order, so the two triangles that share
+/// an edge get the same crossings to the last bit and leave no gap.
 struct Edge {
-  Edge(ScreenPoint a, ScreenPoint b) {
-    if (b.v < a.v || (b.v == a.v && b.u < a.u)) std::swap(a, b);
-    upper_u = a.u;
-    upper_v = a.v;
-    lower_v = b.v;
-    slope = b.v > a.v ? (b.u - a.u) / (b.v - a.v) : 0.0;
-    left = std::min(a.u, b.u);
-    right = std::max(a.u, b.u);
-  }
+  Edge(const ScreenPoint& upper, const ScreenPoint& lower)
+      : upper_u(upper.u),
+        upper_v(upper.v),
+        slope(lower.v > upper.v ? (lower.u - upper.u) / (lower.v - upper.v) : 0.0),
+        left(std::min(upper.u, lower.u)),
+        right(std::max(upper.u, lower.u)) {}
 
-  /// Widens [low, high] by where the edge crosses row `v`.
-  void cross(double v, double& low, double& high) const {
-    if (v < upper_v || v > lower_v) return;
-    const bool level = upper_v == lower_v;
-    const double u = std::clamp(upper_u + (v - upper_v) * slope, left, right);
-    low = std::min(low, level ? left : u);
-    high = std::max(high, level ? right : u);
-  }
+  /// Where the edge crosses row `v`, which it must reach.
+  [[nodiscard]] double at(double v) const { return std::clamp(upper_u + (v - upper_v) * slope, left, right); }
 
-  double upper_u, upper_v, lower_v, slope, left, right;
+  double upper_u, upper_v, slope, left, right;
 };
+
+bool is_above(const ScreenPoint& a, const ScreenPoint& b) { return a.v < b.v || (a.v == b.v && a.u < b.u); }
 
 /// The first and last pixel centre in [low, high], cut to [0, size); first > last when there is none.
 std::pair<int, int> pixel_range(double low, double high, int size) {
@@ -59,8 +54,29 @@ std::pair<int, int> pixel_range(double low, double high, int size) {
   return {below < from ? below + 1 : below, static_cast<int>(std::min(high, last))};
 }
 
+/// The images that a triangle is drawn into; null: that surface is not asked for. Depths are positive and compare as
+/// their bits do, and less one, nothing (0) is the farthest of all.
+struct DepthImages {
+  float* nearest = nullptr;
+  float* farthest = nullptr;
+
+  template <bool with_nearest, bool with_farthest>
+  void draw(std::size_t pixel, float depth) const {
+    const auto bits = std::bit_cast<std::uint32_t>(depth);
+    if constexpr (with_nearest) {
+      const std::uint32_t before = std::bit_cast<std::uint32_t>(nearest[pixel]) - 1U;
+      nearest[pixel] = std::bit_cast<float>((before < bits - 1U ? before : bits - 1U) + 1U);
+    }
+    if constexpr (with_farthest) {
+      const auto before = std::bit_cast<std::uint32_t>(farthest[pixel]);
+      farthest[pixel] = std::bit_cast<float>(before > bits ? before : bits);
+    }
+  }
+};
+
+template <bool with_nearest, bool with_farthest>
 void fill_triangle(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c, const Camera& camera,
-                   RenderedSurface surface, std::span<float> depth) {
+                   const DepthImages& images) {
   const auto [top, bottom] = pixel_range(std::min({a.v, b.v, c.v}), std::max({a.v, b.v, c.v}), camera.height);
   const auto [first, last] = pixel_range(std::min({a.u, b.u, c.u}), std::max({a.u, b.u, c.u}), camera.width);
   if (top > bottom || first > last) return;
@@ -73,25 +89,40 @@ void fill_triangle(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint
   const auto farthest = static_cast<float>(std::min({a.inverse_z, b.inverse_z, c.inverse_z}));
   const auto gradient = static_cast<float>(step_u);
 
-  const std::array<Edge, 3> edges{Edge(a, b), Edge(b, c), Edge(c, a)};
+  std::array<const ScreenPoint*, 3> corners{&a, &b, &c};
+  if (is_above(*corners[1], *corners[0])) std::swap(corners[0], corners[1]);
+  if (is_above(*corners[2], *corners[1])) std::swap(corners[1], corners[2]);
+  if (is_above(*corners[1], *corners[0])) std::swap(corners[0], corners[1]);
+  const ScreenPoint& middle = *corners[1];
+  const Edge whole(*corners[0], *corners[2]);
+  const Edge upper(*corners[0], middle);
+  const Edge lower(middle, *corners[2]);
   for (int v = top; v <= bottom; ++v) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (const Edge& edge : edges) edge.cross(v, low, high);
+    const double one = whole.at(v);
+    const double other = v < middle.v ? upper.at(v) : lower.at(v);
+    double low = std::min(one, other);
+    double high = std::max(one, other);
+    if (v == middle.v) {
+      // All three edges meet this row, the lower one maybe along it.
+      const double lowest = corners[2]->v == middle.v ? corners[2]->u : other;
+      low = std::min({low, upper.at(v), lowest});
+      high = std::max({high, upper.at(v), lowest});
+    }
     const auto [left, right] = pixel_range(low, high, camera.width);
     const auto start = static_cast<float>(a.inverse_z + (v - a.v) * step_v + (left - a.u) * step_u);
-    float* const row = depth.data() + camera.index(0, v);
-    for (int u = left; u <= right; ++u) {
-      const float z = 1.0F / std::clamp(start + gradient * static_cast<float>(u - left), farthest, nearest);
-      const bool wins = surface == RenderedSurface::nearest ? z < row[u] : z > row[u];
-      row[u] = row[u] == 0.0F || wins ? z : row[u];
+    const std::size_t row = camera.index(left, v);
+    for (int k = 0; k <= right - left; ++k) {
+      const float inverse_z = start + gradient * static_cast<float>(k);
+      const float cut = inverse_z < farthest ? farthest : inverse_z;
+      images.draw<with_nearest, with_farthest>(row + static_cast<std::size_t>(k),
+                                               1.0F / (nearest < cut ? nearest : cut));
     }
   }
 }
 
 /// Draws the part of a triangle that lies beyond the near plane: three or four corners of it.
-void draw_clipped(const std::array<Vector3, 3>& corners, const Camera& camera, RenderedSurface surface,
-                  std::span<float> depth) {
+template <bool with_nearest, bool with_farthest>
+void draw_clipped(const std::array<Vector3, 3>& corners, const Camera& camera, const DepthImages& images) {
   std::array<ScreenPoint, 4> kept;
   std::size_t count = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -105,7 +136,63 @@ void draw_clipped(const std::array<Vector3, 3>& corners, const Camera& camera, R
       kept[count++] = to_screen(crossing, camera);
     }
   }
-  for (std::size_t i = 2; i < count; ++i) fill_triangle(kept[0], kept[i - 1], kept[i], camera, surface, depth);
+  for (std::size_t i = 2; i < count; ++i)
+    fill_triangle<with_nearest, with_farthest>(kept[0], kept[i - 1], kept[i], camera, images);
+}
+
+/// The vertices that were met last, in the camera's frame and on the image: most belong to several triangles.
+class VertexCache {
+ public:
+  struct Vertex {
+    Vector3 position;
+    ScreenPoint screen;  ///< When it is in front.
+    bool finite = false;
+    bool in_front = false;  ///< Of the near plane, and finite.
+  };
+
+  VertexCache(const MeshView& mesh, const RigidTransform& camera_from_part, const Camera& camera)
+      : mesh_(mesh), camera_from_part_(camera_from_part), camera_(camera) {
+    owners_.fill(nobody);
+  }
+  /// Valid until another vertex with the same place is asked for: nearby ones have others.
+  const Vertex& operator[](std::uint32_t index) {
+    Vertex& vertex = vertices_[index % size];
+    if (owners_[index % size] != index) {
+      owners_[index % size] = index;
+      vertex.position = camera_from_part_ * mesh_.vertices[index];
+      vertex.finite = vertex.position.allFinite();
+      vertex.in_front = vertex.finite && vertex.position.z() >= near_plane;
+      if (vertex.in_front) vertex.screen = to_screen(vertex.position, camera_);
+    }
+    return vertex;
+  }
+
+ private:
+  static constexpr std::uint32_t size = 1024;
+  static constexpr std::uint32_t nobody = 0xFFFFFFFFU;
+  const MeshView& mesh_;
+  const RigidTransform& camera_from_part_;
+  const Camera& camera_;
+  std::array<std::uint32_t, size> owners_;
+  std::array<Vertex, size> vertices_;
+};
+
+template <bool with_nearest, bool with_farthest>
+void draw(const MeshView& mesh, const RigidTransform& camera_from_part, const Camera& camera,
+          const DepthImages& images) {
+  VertexCache vertices(mesh, camera_from_part, camera);
+  const std::size_t vertex_count = mesh.vertices.size();
+  for (const Triangle& t : mesh.triangles) {
+    if (t[0] >= vertex_count || t[1] >= vertex_count || t[2] >= vertex_count) continue;
+    const VertexCache::Vertex a = vertices[t[0]];
+    const VertexCache::Vertex b = vertices[t[1]];
+    const VertexCache::Vertex& c = vertices[t[2]];
+    if (a.in_front && b.in_front && c.in_front) {
+      fill_triangle<with_nearest, with_farthest>(a.screen, b.screen, c.screen, camera, images);
+    } else if (a.finite && b.finite && c.finite) {
+      draw_clipped<with_nearest, with_farthest>({a.position, b.position, c.position}, camera, images);
+    }
+  }
 }
 
 }  // namespace
@@ -136,18 +223,10 @@ ImageRectangle projected_bounds(const MeshView& mesh, const RigidTransform& came
 
 void draw_depth(const MeshView& mesh, const RigidTransform& camera_from_part, const Camera& camera,
                 std::span<float> depth, RenderedSurface surface) {
-  const std::size_t vertex_count = mesh.vertices.size();
-  for (const Triangle& t : mesh.triangles) {
-    if (t[0] >= vertex_count || t[1] >= vertex_count || t[2] >= vertex_count) continue;
-    const std::array<Vector3, 3> corners{camera_from_part * mesh.vertices[t[0]], camera_from_part * mesh.vertices[t[1]],
-                                         camera_from_part * mesh.vertices[t[2]]};
-    if (!corners[0].allFinite() || !corners[1].allFinite() || !corners[2].allFinite()) continue;
-    if (corners[0].z() >= near_plane && corners[1].z() >= near_plane && corners[2].z() >= near_plane) {
-      fill_triangle(to_screen(corners[0], camera), to_screen(corners[1], camera), to_screen(corners[2], camera), camera,
-                    surface, depth);
-    } else {
-      draw_clipped(corners, camera, surface, depth);
-    }
+  if (surface == RenderedSurface::nearest) {
+    draw<true, false>(mesh, camera_from_part, camera, {depth.data(), nullptr});
+  } else {
+    draw<false, true>(mesh, camera_from_part, camera, {nullptr, depth.data()});
   }
 }
 
@@ -155,6 +234,13 @@ void render_depth(const MeshView& mesh, const RigidTransform& camera_from_part, 
                   std::span<float> depth, RenderedSurface surface) {
   std::fill(depth.begin(), depth.end(), 0.0F);
   draw_depth(mesh, camera_from_part, camera, depth, surface);
+}
+
+void render_both_surfaces(const MeshView& mesh, const RigidTransform& camera_from_part, const Camera& camera,
+                          std::span<float> nearest, std::span<float> farthest) {
+  std::fill(nearest.begin(), nearest.end(), 0.0F);
+  std::fill(farthest.begin(), farthest.end(), 0.0F);
+  draw<true, true>(mesh, camera_from_part, camera, {nearest.data(), farthest.data()});
 }
 
 }  // namespace graspd

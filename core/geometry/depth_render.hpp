@@ -40,7 +40,7 @@ struct ImageRectangle {
 enum class RenderedSurface { nearest, farthest };
 
 /// Draws the posed mesh into a depth image: metres along z at each pixel's ray, the chosen surface
-/// wins over others and over what `depth` holds already, 0 means nothing there. Both sides of a
+/// wins over others and over what `depth` holds already (none negative), 0 means nothing there. Both sides of a
 /// triangle are drawn. `depth` holds camera.pixel_count() values, row by row. Never allocates.
 /// Triangles with indices out of range or coordinates that are not finite are left out.
 void draw_depth(const MeshView& mesh, const RigidTransform& camera_from_part, const Camera& camera,
@@ -49,5 +49,9 @@ void draw_depth(const MeshView& mesh, const RigidTransform& camera_from_part, co
 /// As draw_depth, into an image that is cleared to 0 first.
 void render_depth(const MeshView& mesh, const RigidTransform& camera_from_part, const Camera& camera,
                   std::span<float> depth, RenderedSurface surface = RenderedSurface::nearest);
+
+/// As render_depth for both surfaces, in little more than the time of one.
+void render_both_surfaces(const MeshView& mesh, const RigidTransform& camera_from_part, const Camera& camera,
+                          std::span<float> nearest, std::span<float> farthest);
 
 }  // namespace graspd

@@ -176,6 +176,28 @@ TEST(DepthRender, WhatReachesBehindTheCameraIsCutAtTheNearPlane) {
   for (const float z : depth) ASSERT_EQ(z, 0.0F);
 }
 
+TEST(DepthRender, BothSurfacesAtOnceAreThoseOfTwoRenderings) {
+  std::mt19937 random(11);
+  std::normal_distribution<float> gauss;
+  Mesh mesh = sphere_mesh(30);
+  // Crumpled, so that rays meet many surfaces; some of it reaches behind the camera.
+  for (Vector3& vertex : mesh.vertices) vertex = 0.05F * (vertex + 0.3F * Vector3(gauss(random), gauss(random), 0.0F));
+  mesh.vertices[100].z() = -2.0F;
+  std::vector<float> nearest(camera.pixel_count());
+  std::vector<float> farthest(camera.pixel_count());
+  for (int trial = 0; trial < 5; ++trial) {
+    const RigidTransform pose = random_pose(random);
+    std::vector<float> both_nearest(camera.pixel_count(), 3.0F);
+    std::vector<float> both_farthest(camera.pixel_count(), 3.0F);
+    render_both_surfaces(mesh.view(), pose, camera, both_nearest, both_farthest);
+    render_depth(mesh.view(), pose, camera, nearest);
+    render_depth(mesh.view(), pose, camera, farthest, RenderedSurface::farthest);
+    EXPECT_EQ(both_nearest, nearest);
+    EXPECT_EQ(both_farthest, farthest);
+    EXPECT_NE(nearest, farthest);
+  }
+}
+
 TEST(DepthRender, BadMeshesAreHarmless) {
   Mesh mesh = box_mesh(Vector3(0.1F, 0.1F, 0.1F));
   mesh.vertices.emplace_back(std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F);
