@@ -11,10 +11,8 @@ Consistency scene_consistency(const SceneMap& map, const Bank& bank, const Rigid
   int shown = 0;
   for (const std::uint64_t word : row) shown += std::popcount(word);
   result.shown = static_cast<float>(shown) / static_cast<float>(bank.surface.size());
-  for_each_of_row(bank, row, points, [&](const SurfacePoint& surface) {
+  const auto judge = [&](const SurfacePoint& surface, const Vector3& point, const MapCell* cell) {
     ++result.facing;
-    const Vector3 point = camera_from_part * surface.position;
-    const MapCell* cell = map.look_up(point);
     if (cell == nullptr || !cell->measured()) {
       ++result.unmeasured;
       return;
@@ -27,7 +25,8 @@ Consistency scene_consistency(const SceneMap& map, const Bank& bank, const Rigid
     } else if (confirms(*cell, point, camera_from_part.rotation * surface.normal, tolerance)) {
       ++result.confirmed;
     }
-  });
+  };
+  for_each_looked_up(map, bank, camera_from_part, row, points, judge);
   return result;
 }
 

@@ -46,12 +46,12 @@ struct Consistency {
 template <class Visit>
 void for_each_confirmed(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part, int points,
                         float tolerance, Visit visit) {
-  for_each_visible(bank, camera_from_part, points, [&](const SurfacePoint& surface) {
-    const Vector3 point = camera_from_part * surface.position;
-    const MapCell* cell = map.look_up(point);
-    if (cell != nullptr && confirms(*cell, point, camera_from_part.rotation * surface.normal, tolerance))
-      visit(static_cast<std::size_t>(cell - map.cells.data()));
-  });
+  for_each_looked_up(
+      map, bank, camera_from_part, visible_row(bank, camera_from_part), points,
+      [&](const SurfacePoint& surface, const Vector3& point, const MapCell* cell) {
+        if (cell != nullptr && confirms(*cell, point, camera_from_part.rotation * surface.normal, tolerance))
+          visit(static_cast<std::size_t>(cell - map.cells.data()));
+      });
 }
 
 }  // namespace graspd

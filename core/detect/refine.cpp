@@ -47,16 +47,15 @@ void accumulate_surface(const SceneMap& map, const Bank& bank, const RigidTransf
                         NormalEquations& equations) {
   const Vector3 centre = pose * bank.part->centre;
   const float inverse_radius = 2.0F / bank.part->diameter;
-  for_each_visible(bank, pose, points, [&](const SurfacePoint& surface) {
-    const Vector3 point = pose * surface.position;
-    const MapCell* cell = map.look_up(point);
+  const auto add = [&](const SurfacePoint& surface, const Vector3& point, const MapCell* cell) {
     if (cell == nullptr || cell->foreground == 0 || !cell->has_normal()) return;
     const Vector3 gap = cell->point - point;
     const float squared = gap.squaredNorm();
     if (squared > gate * gate || cell->normal.dot(pose.rotation * surface.normal) < compatible_normal) return;
     add_row((point - centre) * inverse_radius, cell->normal, cell->normal.dot(gap), tukey(squared, gate), equations);
     ++equations.pairs;
-  });
+  };
+  for_each_looked_up(map, bank, pose, visible_row(bank, pose), points, add);
 }
 
 /// Draws the edges of the part to where the scene falls away: across the edge, in the plane that faces
@@ -67,21 +66,38 @@ void accumulate_edges(const SceneMap& map, const DepthEdges& edges, const Bank& 
   const Vector3 centre = pose * bank.part->centre;
   const float inverse_radius = 2.0F / bank.part->diameter;
   const std::size_t step = std::max<std::size_t>(1, contour.size() / static_cast<std::size_t>(std::max(points, 1)));
-  for (std::size_t i = 0; i < contour.size(); i += step) {
-    const Vector3 point = pose * contour[i].position;
-    const MapCell* cell = map.look_up(point);
-    if (cell == nullptr) continue;
-    const std::uint32_t nearest = edges.nearest[static_cast<std::size_t>(cell - map.cells.data())];
-    if (nearest == no_edge) continue;
-    const Vector3 gap = map.cells[nearest].point - point;
-    if (gap.squaredNorm() > gate * gate) continue;
-    const Vector3 across = point.cross(pose.rotation * contour[i].tangent);
+  struct Drawn {
+    const EdgePoint* edge;
+    Vector3 point;
+    const std::uint32_t* nearest;
+  };
+  const auto add = [&](const Drawn& drawn, const Vector3& gap) {
+    if (gap.squaredNorm() > gate * gate) return;
+    const Vector3 across = drawn.point.cross(pose.rotation * drawn.edge->tangent);
     const float length = across.norm();
     // An edge that points at the sensor has no side to be drawn to.
-    if (length < 0.3F * point.norm()) continue;
+    if (length < 0.3F * drawn.point.norm()) return;
     const Vector3 direction = across / length;
-    add_row((point - centre) * inverse_radius, direction, direction.dot(gap),
+    add_row((drawn.point - centre) * inverse_radius, direction, direction.dot(gap),
             edge_weight * tukey(gap.squaredNorm(), gate), equations);
+  };
+  // In batches, so that the memory is asked for all of their cells before the first is needed.
+  std::array<Drawn, 32> batch;
+  for (std::size_t first = 0; first < contour.size(); first += batch.size() * step) {
+    std::size_t count = 0;
+    for (std::size_t i = first; i < std::min(contour.size(), first + batch.size() * step); i += step) {
+      const Vector3 point = pose * contour[i].position;
+      const MapCell* const cell = map.look_up(point);
+      if (cell == nullptr) continue;
+      batch[count] = {&contour[i], point, &edges.nearest[static_cast<std::size_t>(cell - map.cells.data())]};
+      __builtin_prefetch(batch[count++].nearest);
+    }
+    for (const Drawn& drawn : std::span(batch).first(count)) {
+      if (*drawn.nearest != no_edge) __builtin_prefetch(&map.cells[*drawn.nearest]);
+    }
+    for (const Drawn& drawn : std::span(batch).first(count)) {
+      if (*drawn.nearest != no_edge) add(drawn, map.cells[*drawn.nearest].point - drawn.point);
+    }
   }
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <bit>
 
 #include "core/bank/bank.hpp"
+#include "core/detect/scene_map.hpp"
 
 namespace graspd {
 
@@ -25,10 +27,31 @@ void for_each_of_row(const Bank& bank, std::span<const std::uint64_t> row, int p
   }
 }
 
-/// Calls visit(point) for the first `points` surface points that are visible from `camera_from_part`.
+/// Calls visit(surface point, the point in the camera's frame, the map cell that it falls on or null) for the first
+/// `points` surface points of a visible_row. Cells are asked of the memory well before they are visited: they lie all
+/// over the map, and waiting for one after the other would take most of the time.
 template <class Visit>
-void for_each_visible(const Bank& bank, const RigidTransform& camera_from_part, int points, Visit visit) {
-  for_each_of_row(bank, visible_row(bank, camera_from_part), points, visit);
+void for_each_looked_up(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part,
+                        std::span<const std::uint64_t> row, int points, Visit visit) {
+  struct LookedUp {
+    const SurfacePoint* surface;
+    Vector3 point;
+    const MapCell* cell;
+  };
+  std::array<LookedUp, 32> batch;
+  std::size_t count = 0;
+  const auto visit_batch = [&] {
+    for (std::size_t i = 0; i < count; ++i) visit(*batch[i].surface, batch[i].point, batch[i].cell);
+    count = 0;
+  };
+  for_each_of_row(bank, row, points, [&](const SurfacePoint& surface) {
+    const Vector3 point = camera_from_part * surface.position;
+    const MapCell* const cell = map.look_up(point);
+    __builtin_prefetch(cell);
+    batch[count++] = {&surface, point, cell};
+    if (count == batch.size()) visit_batch();
+  });
+  visit_batch();
 }
 
 }  // namespace graspd
