@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace graspd {
@@ -18,12 +19,14 @@ Eigen::Vector2f outward(const SceneMap& map, const RenderedModel& model, int u, 
   const float step = map.surface_step(front);
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();
   bool ends = false;
+  const float diagonal = 1.0F / std::sqrt(2.0F);
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const int x = u + ring[k][0];
     const int y = v + ring[k][1];
     const float beyond = model.camera.contains(x, y) ? model.front[model.camera.index(x, y)] : 0.0F;
     if (beyond != 0.0F && beyond - front < step) continue;
-    sum += Eigen::Vector2f(static_cast<float>(ring[k][0]), static_cast<float>(ring[k][1])).normalized();
+    const float length = k % 2 == 0 ? 1.0F : diagonal;
+    sum += length * Eigen::Vector2f(static_cast<float>(ring[k][0]), static_cast<float>(ring[k][1]));
     ends |= k % 2 == 0;
   }
   return ends ? sum : Eigen::Vector2f::Zero();

@@ -63,15 +63,14 @@ Status check(const DepthFrame& frame, const DetectRequest& request, const Detect
   return {};
 }
 
-/// Refines a cluster's pose and holds it against the scene.
+/// Holds the refined pose of a cluster against the scene.
 Instance judge(const Scene& scene, const Bank& bank, std::uint32_t bank_index, const PoseCluster& cluster,
                const DetectParameters& parameters, std::span<float> image) {
   Instance instance;
   instance.bank = bank_index;
   instance.view = cluster.view;
   instance.votes = cluster.votes;
-  instance.camera_from_part =
-      refine_finely(scene.map, scene.edges, bank, cluster.camera_from_part, parameters.refine, image);
+  instance.camera_from_part = cluster.camera_from_part;
   const RenderedModel model = render_model(scene.map, bank, instance.camera_from_part, image.first(image.size() / 2),
                                            image.subspan(image.size() / 2));
   instance.evidence = gather_evidence(scene.map, bank, model, parameters.verify, {});
@@ -81,21 +80,34 @@ Instance judge(const Scene& scene, const Bank& bank, std::uint32_t bank_index, c
   return instance;
 }
 
-/// Judges the clusters, those that agree best with the scene first, as long as there is time.
+/// Refines the clusters to the end and judges them, those that agree best with the scene first, as long as there is
+/// time: a few at a time, for only what was judged counts.
 void judge_clusters(const Scene& scene, const DetectRequest& request, std::uint32_t bank_index,
                     const DetectParameters& parameters, const Execution& execution, DetectWorkspace& workspace,
-                    Detections& detections) {
+                    StageClock& clock, Detections& detections) {
   constexpr std::uint32_t nobody = 0xFFFFFFFFU;
+  constexpr std::size_t at_a_time = 16;
+  const Bank& bank = request.banks[bank_index];
   const std::size_t first = workspace.judged.size();
   const std::size_t count = std::min(workspace.clusters.size(), workspace.judged.capacity() - first);
   if (count < workspace.clusters.size()) detections.flags |= flag_hypotheses_cut;
   workspace.judged.assume_size(first + count);
   for (std::size_t i = 0; i < count; ++i) workspace.judged[first + i].bank = nobody;
-  parallel_for(count, execution, 2, [&](std::size_t i) {
-    const std::span<float> image = workspace.rendering[static_cast<std::size_t>(omp_get_thread_num())];
-    workspace.judged[first + i] =
-        judge(scene, request.banks[bank_index], bank_index, workspace.clusters[i], parameters, image);
-  });
+  const auto own_image = [&] { return workspace.rendering[static_cast<std::size_t>(omp_get_thread_num())]; };
+  for (std::size_t begin = 0; begin < count; begin += at_a_time) {
+    const std::size_t some = std::min(at_a_time, count - begin);
+    parallel_for(some, execution, 1, [&](std::size_t i) {
+      RigidTransform& pose = workspace.clusters[begin + i].camera_from_part;
+      pose = refine_finely(scene.map, scene.edges, bank, pose, parameters.refine, own_image());
+    });
+    clock.end_of(Stage::refine);
+    if (execution.late()) break;
+    parallel_for(some, execution, 1, [&](std::size_t i) {
+      workspace.judged[first + begin + i] =
+          judge(scene, bank, bank_index, workspace.clusters[begin + i], parameters, own_image());
+    });
+    clock.end_of(Stage::verify);
+  }
   const Instance* end = std::remove_if(workspace.judged.begin() + first, workspace.judged.end(),
                                        [](const Instance& instance) { return instance.bank == nobody; });
   workspace.judged.truncate(static_cast<std::size_t>(end - workspace.judged.begin()));
@@ -163,8 +175,7 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     clock.end_of(Stage::refine);
     if (execution.late()) break;
 
-    judge_clusters(scene, request, b, parameters, execution, workspace, detections);
-    clock.end_of(Stage::verify);
+    judge_clusters(scene, request, b, parameters, execution, workspace, clock, detections);
   }
   detections.work.judged = static_cast<std::uint32_t>(workspace.judged.size());
   if (execution.late()) detections.flags |= flag_deadline;
