@@ -9,6 +9,10 @@ namespace graspd {
 
 namespace {
 
+/// Depths (metres) beyond these are no measurements.
+constexpr float nearest_depth = 1e-6F;
+constexpr float furthest_depth = 1e6F;
+
 /// Depth range [low, high] that holds the larger of the two surfaces seen in a block.
 struct DepthRange {
   float low = 0;
@@ -41,28 +45,63 @@ DepthRange range_of_block(const DepthFrame& frame, int stride, int mu, int mv, f
 
 /// Halves the range, keeping the fuller half, until it is one surface.
 DepthRange larger_surface(const DepthFrame& frame, int stride, int mu, int mv, float step) {
-  DepthRange range = range_of_block(frame, stride, mu, mv, 1e-6F, 1e6F);
+  DepthRange range = range_of_block(frame, stride, mu, mv, nearest_depth, furthest_depth);
   for (int halving = 0; halving < 8 && range.count > 0 && range.high - range.low > step; ++halving) {
     const float middle = 0.5F * (range.low + range.high);
     const DepthRange near = range_of_block(frame, stride, mu, mv, range.low, middle);
-    const DepthRange far = range_of_block(frame, stride, mu, mv, std::nextafter(middle, 1e6F), range.high);
+    const DepthRange far = range_of_block(frame, stride, mu, mv, std::nextafter(middle, furthest_depth), range.high);
     range = near.count >= far.count ? near : far;
   }
   return range;
 }
 
+/// The pixels of a block that lie in a depth range, summed up.
+struct PixelSum {
+  float u = 0;
+  float v = 0;
+  float z = 0;
+
+  void add(int at_u, int at_v, float depth) {
+    u += static_cast<float>(at_u);
+    v += static_cast<float>(at_v);
+    z += depth;
+  }
+  [[nodiscard]] Vector3 mean(const Camera& camera, int count) const {
+    const float scale = 1.0F / static_cast<float>(count);
+    return camera.point(u * scale, v * scale, z * scale);
+  }
+};
+
 Vector3 mean_point(const DepthFrame& frame, int stride, int mu, int mv, const DepthRange& range) {
-  float su = 0;
-  float sv = 0;
-  float sz = 0;
+  PixelSum sum;
   for_each_pixel(frame, stride, mu, mv, [&](int u, int v, float z) {
-    if (z < range.low || z > range.high) return;
-    su += static_cast<float>(u);
-    sv += static_cast<float>(v);
-    sz += z;
+    if (z >= range.low && z <= range.high) sum.add(u, v, z);
   });
-  const float scale = 1.0F / static_cast<float>(range.count);
-  return frame.camera.point(su * scale, sv * scale, sz * scale);
+  return sum.mean(frame.camera, range.count);
+}
+
+/// All that was measured in a block, in one pass.
+struct WholeBlock {
+  DepthRange range;
+  PixelSum sum;
+};
+
+WholeBlock read_block(const DepthFrame& frame, int stride, int mu, int mv) {
+  WholeBlock block{{furthest_depth, nearest_depth, 0}, {}};
+  const int v_end = std::min((mv + 1) * stride, frame.camera.height);
+  const int u_end = std::min((mu + 1) * stride, frame.camera.width);
+  for (int v = mv * stride; v < v_end; ++v) {
+    for (int u = mu * stride; u < u_end; ++u) {
+      const float z = frame.at(u, v);
+      // Without branches: whether a pixel was measured is hard to foretell.
+      const bool measured = z >= nearest_depth && z <= furthest_depth;
+      block.range.low = measured && z < block.range.low ? z : block.range.low;
+      block.range.high = measured && z > block.range.high ? z : block.range.high;
+      block.range.count += measured ? 1 : 0;
+      block.sum.add(measured ? u : 0, measured ? v : 0, measured ? z : 0.0F);
+    }
+  }
+  return block;
 }
 
 bool supported(const SceneMap& map, int u, int v) {
@@ -165,10 +204,14 @@ void bin_frame(const DepthFrame& frame, int threads, SceneMap& map) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       cell = MapCell{};
-      const DepthRange all = range_of_block(frame, map.stride, u, v, 1e-6F, 1e6F);
-      if (all.count < enough) continue;
-      const float step = map.surface_step(all.low);
-      const DepthRange range = all.high - all.low <= step ? all : larger_surface(frame, map.stride, u, v, step);
+      const WholeBlock block = read_block(frame, map.stride, u, v);
+      if (block.range.count < enough) continue;
+      const float step = map.surface_step(block.range.low);
+      if (block.range.high - block.range.low <= step) {
+        cell.point = block.sum.mean(frame.camera, block.range.count);
+        continue;
+      }
+      const DepthRange range = larger_surface(frame, map.stride, u, v, step);
       if (range.count >= enough) cell.point = mean_point(frame, map.stride, u, v, range);
     }
   });
