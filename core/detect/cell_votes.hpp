@@ -12,12 +12,18 @@
 
 namespace graspd {
 
-/// How many turns have met a cell.
-[[nodiscard]] inline std::uint32_t count_turns(const CellMeeting& meeting) {
+/// The turns that met a cell as bits, the first of the first word turn 0 of PpfEntry.
+[[nodiscard]] inline std::array<std::uint64_t, alpha_bins / 8> turn_bits(const CellMeeting& meeting) {
+  static_assert(std::endian::native == std::endian::little);
   std::array<std::uint64_t, alpha_bins / 8> words;
   std::memcpy(words.data(), meeting.turns.data(), sizeof words);
+  return words;
+}
+
+/// How many turns have met a cell.
+[[nodiscard]] inline std::uint32_t count_turns(const CellMeeting& meeting) {
   int count = 0;
-  for (const std::uint64_t word : words) count += std::popcount(word);
+  for (const std::uint64_t word : turn_bits(meeting)) count += std::popcount(word);
   return static_cast<std::uint32_t>(count);
 }
 
@@ -75,9 +81,11 @@ inline void vote_cell(std::span<const PpfEntry> entries, const CellMeeting& meet
   constexpr std::uint32_t few_turns = 2;
   constexpr std::size_t few_entries = 8;
   if (turns <= few_turns || entries.size() <= few_entries) {
-    for (std::uint32_t bin = 0; bin < alpha_bins; ++bin) {
-      if (meeting.turns[bin] == 0) continue;
-      vote_turn(entries, bin * 8U + static_cast<std::uint32_t>(std::countr_zero(meeting.turns[bin])), rows);
+    std::uint32_t first = 0;
+    for (std::uint64_t word : turn_bits(meeting)) {
+      for (; word != 0; word &= word - 1)
+        vote_turn(entries, first + static_cast<std::uint32_t>(std::countr_zero(word)), rows);
+      first += 64;
     }
     return;
   }
