@@ -128,17 +128,18 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
 
   float finest = request.banks.front().part->detail;
   for (const Bank& bank : request.banks) finest = std::min(finest, bank.part->detail);
+  // What is late is left, whatever stage it has come to: only what was verified is an answer.
+  const Execution execution{parameters.threads, request.now_ns, request.deadline_ns};
   const Scene scene =
-      preprocess(frame, request.empty_bin, finest, parameters.preprocess, parameters.threads, workspace.preprocess);
+      preprocess(frame, request.empty_bin, finest, parameters.preprocess, execution, workspace.preprocess);
   detections.measured_pixels = scene.measured_pixels;
   detections.foreground_pixels =
       scene.foreground_cells * static_cast<std::uint32_t>(scene.map.stride * scene.map.stride);
   clock.end_of(Stage::preprocess);
 
-  if (scene.measured_pixels == 0) return {StatusCode::bad_frame, "nothing in the frame was measured"};
+  if (scene.measured_pixels == 0 && !execution.late())
+    return {StatusCode::bad_frame, "nothing in the frame was measured"};
 
-  // What is late is left, whatever stage it has come to: only what was verified is an answer.
-  const Execution execution{parameters.threads, request.now_ns, request.deadline_ns};
   for (std::uint32_t b = 0; b < request.banks.size() && !execution.late(); ++b) {
     const Bank& bank = request.banks[b];
     const float reach = bank.grid.distance_step * static_cast<float>(bank.grid.distance_bins);

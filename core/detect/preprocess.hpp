@@ -35,9 +35,11 @@ struct PreprocessWorkspace {
 [[nodiscard]] PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacity& capacity);
 
 /// Bins the frame, removes the background, splits the rest into segments, fits normals and finds edges (paper 2.4.1),
-/// at a resolution that suits a part whose poses are judged at `detail` metres. `empty_bin` may have no depth.
+/// at a resolution that suits a part whose poses are judged at `detail` metres. `empty_bin` may have no depth. Once it
+/// is late, it returns what there is, of no use but for the size of the map.
 [[nodiscard]] Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float detail,
-                               const PreprocessParameters& parameters, int threads, PreprocessWorkspace& workspace);
+                               const PreprocessParameters& parameters, const Execution& execution,
+                               PreprocessWorkspace& workspace);
 
 /// The scene points that vote for a part sampled at `sampling`, in a grid for pairs up to `reach` apart.
 [[nodiscard]] NeighbourGrid sample_for(const Scene& scene, float sampling, float reach, PreprocessWorkspace& workspace);

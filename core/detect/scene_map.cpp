@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "core/detect/parallel_for.hpp"
-
 namespace graspd {
 
 namespace {
@@ -198,9 +196,9 @@ SceneMap make_scene_map(const Camera& camera, int stride, std::span<MapCell> sto
   return map;
 }
 
-void bin_frame(const DepthFrame& frame, int threads, SceneMap& map) {
+void bin_frame(const DepthFrame& frame, const Execution& execution, SceneMap& map) {
   const int enough = std::max(1, map.stride * map.stride / 3);
-  parallel_for(map.camera.height, threads, 8, [&](int v) {
+  parallel_for(map.camera.height, execution, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       cell = MapCell{};
@@ -216,13 +214,13 @@ void bin_frame(const DepthFrame& frame, int threads, SceneMap& map) {
     }
   });
   // Support is judged on the map as it was, so cells are marked first and emptied afterwards.
-  parallel_for(map.camera.height, threads, 8, [&](int v) {
+  parallel_for(map.camera.height, execution, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       cell.foreground = cell.measured() && supported(map, u, v) ? 1 : 0;
     }
   });
-  parallel_for(map.camera.height, threads, 8, [&](int v) {
+  parallel_for(map.camera.height, execution, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       if (cell.foreground == 0) cell.point.setZero();
@@ -230,8 +228,8 @@ void bin_frame(const DepthFrame& frame, int threads, SceneMap& map) {
   });
 }
 
-void fit_normals(int radius, int threads, SceneMap& map) {
-  parallel_for(map.camera.height, threads, 8, [&](int v) {
+void fit_normals(int radius, const Execution& execution, SceneMap& map) {
+  parallel_for(map.camera.height, execution, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       if (cell.foreground == 0) continue;

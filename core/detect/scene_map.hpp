@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/detect/execution.hpp"
 #include "core/geometry/depth_frame.hpp"
 #include "core/memory/arena.hpp"
 
@@ -49,11 +50,12 @@ struct SceneMap {
 [[nodiscard]] SceneMap make_scene_map(const Camera& camera, int stride, std::span<MapCell> storage);
 
 /// Bins the frame into the map: in each block the larger of the surfaces it shows is averaged; blocks
-/// that are mostly unmeasured, and cells that no neighbour supports (flying pixels), stay empty.
-void bin_frame(const DepthFrame& frame, int threads, SceneMap& map);
+/// that are mostly unmeasured, and cells that no neighbour supports (flying pixels), stay empty. What is in the map
+/// once it is late is of no use.
+void bin_frame(const DepthFrame& frame, const Execution& execution, SceneMap& map);
 
 /// Fits a plane to the neighbourhood (`radius` cells) of each foreground cell, twice, the second time
 /// without the points off the first plane, so that normals stay sharp at creases.
-void fit_normals(int radius, int threads, SceneMap& map);
+void fit_normals(int radius, const Execution& execution, SceneMap& map);
 
 }  // namespace graspd

@@ -74,7 +74,7 @@ Status run(const Options& options) {
   MemoryBlock memory(measuring.used());
   Arena arena(memory.bytes());
   PreprocessWorkspace workspace = carve_preprocess_workspace(arena, capacity);
-  const Scene seen = preprocess(depth, frame.value().empty_bin(), bank.part->detail, {}, 1, workspace);
+  const Scene seen = preprocess(depth, frame.value().empty_bin(), bank.part->detail, {}, {}, workspace);
   const float reach = bank.grid.distance_step * static_cast<float>(bank.grid.distance_bins);
   const NeighbourGrid points = sample_for(seen, bank.part->sampling, reach, workspace);
 

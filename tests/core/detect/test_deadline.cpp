@@ -45,6 +45,18 @@ TEST_F(Deadline, ThatHasPassedLeavesNothing) {
   EXPECT_TRUE(detections.instances.empty());
 }
 
+TEST_F(Deadline, EndsThePreparationOfTheSceneToo) {
+  (void)detect_until(std::int64_t{1} << 60U);
+  const std::int64_t whole = readings;
+  // The clock is read once a row of the map and more.
+  for (const std::int64_t deadline : {5, 50, 200, 400}) {
+    const Detections detections = detect_until(deadline);
+    EXPECT_NE(detections.flags & flag_deadline, 0U);
+    EXPECT_TRUE(detections.instances.empty());
+    EXPECT_EQ(detections.scene_points, 0U) << "voting began after " << deadline << " of " << whole << " readings";
+  }
+}
+
 TEST_F(Deadline, LeavesWhatWasVerifiedByThen) {
   const std::size_t found = detect_until(std::int64_t{1} << 60U).instances.size();
   const std::int64_t whole = readings;

@@ -21,7 +21,7 @@ class TwinHypotheses : public testing::Test {
     bank_ = maker_.bank();
     bank_.twins = twins_;
     const DepthFrame frame = bins_.frame();
-    scene_ = preprocess(frame, {}, bank_.part->detail, parameters_.preprocess, 1, memory_.workspace.preprocess);
+    scene_ = preprocess(frame, {}, bank_.part->detail, parameters_.preprocess, {}, memory_.workspace.preprocess);
     clusters_ = memory_.workspace.clusters;
     clusters_.clear();
   }
