@@ -72,7 +72,7 @@ ClusterWorkspace carve_cluster_workspace(Arena& arena, const DetectCapacity& cap
 }
 
 void cluster_hypotheses(std::span<const Hypothesis> hypotheses, const Bank& bank, const ClusterParameters& parameters,
-                        ClusterWorkspace& workspace, FixedVector<PoseCluster>& clusters) {
+                        const Execution& execution, ClusterWorkspace& workspace, FixedVector<PoseCluster>& clusters) {
   clusters.clear();
   std::array<Quaternion, most_symmetry> symmetry;
   const std::size_t members = std::min(bank.symmetry_discrete.size(), most_symmetry);
@@ -89,8 +89,9 @@ void cluster_hypotheses(std::span<const Hypothesis> hypotheses, const Bank& bank
   const float reach = parameters.translation * bank.part->sampling;
   const float closeness = std::cos(0.5F * parameters.rotation);
 
-  for (const std::uint32_t h : order) {
-    const Hypothesis& hypothesis = hypotheses[h];
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    if (place % 64 == 0 && execution.late()) break;
+    const Hypothesis& hypothesis = hypotheses[order[place]];
     const Quaternion rotation = quaternion_of(hypothesis.camera_from_part.rotation);
     const Vector3 centre = hypothesis.camera_from_part * bank.part->centre;
     const Eigen::Vector3i cell = cell_of(centre, reach);

@@ -41,9 +41,9 @@ struct ClusterWorkspace {
 
 /// Groups hypotheses by rotation and by the place of the part's centre, modulo the part's symmetry
 /// (paper 3.2). The strongest come first and found the clusters, equal ones in the order of the scene,
-/// so the result does not depend on threads. What does not fit in `clusters` is dropped.
+/// so the result does not depend on threads. What does not fit in `clusters` is dropped, and the rest once it is late.
 void cluster_hypotheses(std::span<const Hypothesis> hypotheses, const Bank& bank, const ClusterParameters& parameters,
-                        ClusterWorkspace& workspace, FixedVector<PoseCluster>& clusters);
+                        const Execution& execution, ClusterWorkspace& workspace, FixedVector<PoseCluster>& clusters);
 
 /// Best first; equal ones in the order of their rank.
 void sort_by_score(FixedVector<PoseCluster>& clusters);

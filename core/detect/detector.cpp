@@ -154,11 +154,13 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     clock.end_of(Stage::match);
     if (execution.late()) break;
 
-    cluster_hypotheses(workspace.hypotheses.span(), bank, parameters.cluster, workspace.cluster, workspace.clusters);
+    cluster_hypotheses(workspace.hypotheses.span(), bank, parameters.cluster, execution, workspace.cluster,
+                       workspace.clusters);
     detections.work.clusters += static_cast<std::uint32_t>(workspace.clusters.size());
     if (workspace.clusters.dropped() > 0) detections.flags |= flag_hypotheses_cut;
     rate_plausibility(scene.map, bank, execution, workspace.clusters);
     record(request.trace, b, TracedStage::clustered, workspace.clusters);
+    if (execution.late()) break;
     keep_spread(scene.map, bank,
                 {parameters.cluster.plausible, parameters.cluster.plausible_per_place, 100, bank.part->sampling},
                 workspace.select.claimed, workspace.clusters);
@@ -168,6 +170,7 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
 
     refine_coarsely(scene.map, scene.edges, bank, parameters.refine, execution, workspace.clusters);
     record(request.trace, b, TracedStage::aligned, workspace.clusters);
+    if (execution.late()) break;
     // Each part gets its share of the memory, whatever came before it.
     const std::size_t share = workspace.capacity.judged / request.banks.size();
     narrow_down(scene, bank, parameters.refine, std::min(parameters.refine.judged, static_cast<int>(share)), execution,
