@@ -24,7 +24,7 @@ void read_weights(SettingsTable table, RankingWeights& weights) {
   table.read("clearance", weights.clearance, 0, 1000);
   table.read("height", weights.height, 0, 1000);
   table.read("turn", weights.turn, 0, 1000);
-  table.read("unseen", weights.unseen, 0, 1000);
+  table.read("hidden", weights.hidden, 0, 1000);
   table.read("height_range", weights.height_range, 1, 10000, metres_per_millimetre);
   table.finish();
 }
@@ -77,7 +77,9 @@ void read_grasp_section(SettingsTable table, GraspParameters& grasp) {
   table.read("clearance_range", grasp.collision.clearance_range, 0.1, 1000, metres_per_millimetre);
   table.read("sample_spacing", grasp.collision.sample_spacing, 0.1, 100, metres_per_millimetre);
   table.read("minimum_points", grasp.collision.minimum_points, 1U, 8U);
-  table.read("maximum_unseen", grasp.collision.maximum_unseen, 0, 1);
+  table.read("unexplained_clearance", grasp.collision.unexplained_clearance, 0, 1000, metres_per_millimetre);
+  table.read("hidden_clearance", grasp.collision.hidden_clearance, 0, 1000, metres_per_millimetre);
+  table.read("maximum_hidden", grasp.collision.maximum_hidden, 0, 1);
   read_retreat(table.table("retreat"), grasp.retreat);
   read_reach(table.table("reach"), grasp.reach);
   read_order(table.table("order"), grasp.order);

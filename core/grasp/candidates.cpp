@@ -107,11 +107,11 @@ RigidTransform approach_of(const RigidTransform& robot_from_tool, float distance
 }
 
 GraspRejection furthest(GraspRejection a, GraspRejection b) {
-  constexpr std::array order{GraspRejection::no_bin,  GraspRejection::no_grasp,  GraspRejection::tool,
-                             GraspRejection::opening, GraspRejection::tilt,      GraspRejection::reach,
-                             GraspRejection::avoided, GraspRejection::wall,      GraspRejection::collision,
-                             GraspRejection::unseen,  GraspRejection::neighbour, GraspRejection::closing,
-                             GraspRejection::retreat, GraspRejection::none};
+  constexpr std::array order{GraspRejection::no_bin,    GraspRejection::no_grasp, GraspRejection::tool,
+                             GraspRejection::opening,   GraspRejection::tilt,     GraspRejection::reach,
+                             GraspRejection::avoided,   GraspRejection::wall,     GraspRejection::collision,
+                             GraspRejection::neighbour, GraspRejection::unseen,   GraspRejection::closing,
+                             GraspRejection::retreat,   GraspRejection::none};
   return std::find(order.begin(), order.end(), a) < std::find(order.begin(), order.end(), b) ? b : a;
 }
 

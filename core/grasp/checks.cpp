@@ -4,6 +4,7 @@
 
 #include "core/grasp/collision.hpp"
 #include "core/grasp/neighbours.hpp"
+#include "core/grasp/unexplained.hpp"
 
 namespace graspd {
 namespace {
@@ -45,7 +46,8 @@ bool closing_collides(const Attempt& attempt, float opening) {
   touching.minimum_clearance = 0.0F;
   const Sweep closing{attempt.camera_from_tool, &jaws, Vector3::Zero()};
   return sweep_collides(*attempt.around.cloud, closing, attempt.part, touching) ||
-         sweep_meets_instances(attempt.around.instances, attempt.around.banks, attempt.instance, closing, 0.0F);
+         sweep_meets_instances(attempt.around.instances, attempt.around.banks, attempt.instance, closing,
+                               0.5F * attempt.parameters.collision.minimum_clearance);
 }
 
 bool retreat_collides(const Attempt& attempt) {
@@ -60,19 +62,43 @@ bool retreat_collides(const Attempt& attempt) {
       attempt.tool.contact_margin, attempt.bank.surface.first(std::min(carried_points, attempt.bank.surface.size())));
 }
 
+/// Of all banks: a part of any of them may hide.
+float hidden_share(const Attempt& attempt, const Gripper& gripper) {
+  float share = 0.0F;
+  for (const Bank& bank : attempt.around.banks) {
+    share = std::max(share, hidden_part_share(*attempt.around.hidden, bank, attempt.around.walls,
+                                              attempt.camera_from_tool, gripper));
+  }
+  return share;
+}
+
+/// What parts that nobody has recognised leave of a way in: those that were measured in part, and those that may hide.
+GraspRejection test_unrecognised(const Attempt& attempt, const Gripper& gripper, const Sweep& sweep, float& extra) {
+  const CollisionParameters& collision = attempt.parameters.collision;
+  const float share = hidden_share(attempt, gripper);
+  if (share > collision.maximum_hidden) return GraspRejection::unseen;
+  extra = hidden_part_clearance(share, collision);
+  const float clearance = collision.unexplained_clearance + extra;
+  if (clearance <= 0.0F || !nears_unexplained(attempt.around, sweep, attempt.part, clearance)) {
+    return GraspRejection::none;
+  }
+  return extra > 0.0F ? GraspRejection::unseen : GraspRejection::collision;
+}
+
 /// The first test that fails with the jaws this far open.
-GraspRejection test_opening(const Attempt& attempt, float opening) {
+GraspRejection test_opening(const Attempt& attempt, float opening, float& hidden) {
   const Gripper gripper = open_gripper(attempt.tool, opening);
   const Sweep sweep = way_in(attempt, gripper);
   const CollisionParameters& collision = attempt.parameters.collision;
   if (sweep_meets_walls(attempt.around.walls, sweep, collision.minimum_clearance)) return GraspRejection::wall;
   if (sweep_collides(*attempt.around.cloud, sweep, attempt.part, collision)) return GraspRejection::collision;
-  if (collision.maximum_unseen < 1.0F && unseen_share(*attempt.around.cloud, sweep) > collision.maximum_unseen) {
-    return GraspRejection::unseen;
-  }
   if (sweep_meets_instances(attempt.around.instances, attempt.around.banks, attempt.instance, sweep,
                             collision.minimum_clearance)) {
     return GraspRejection::neighbour;
+  }
+  if (const GraspRejection rejection = test_unrecognised(attempt, gripper, sweep, hidden);
+      rejection != GraspRejection::none) {
+    return rejection;
   }
   if (closing_collides(attempt, opening)) return GraspRejection::closing;
   return retreat_collides(attempt) ? GraspRejection::retreat : GraspRejection::none;
@@ -100,7 +126,7 @@ GraspCheck check_grasp(const GraspSurroundings& around, std::size_t instance, co
   const Openings openings = openings_of(tool, grasp);
   GraspCheck check{GraspRejection::opening, 0.0F, 0.0F, 0.0F};
   for (std::size_t i = 0; i < openings.count; ++i) {
-    const GraspRejection rejection = test_opening(attempt, openings.widths[i]);
+    const GraspRejection rejection = test_opening(attempt, openings.widths[i], check.hidden);
     if (furthest(check.reason, rejection) == rejection) {
       check.reason = rejection;
       check.opening = openings.widths[i];
@@ -109,7 +135,6 @@ GraspCheck check_grasp(const GraspSurroundings& around, std::size_t instance, co
     const Gripper gripper = open_gripper(tool, check.opening);
     const Sweep sweep = way_in(attempt, gripper);
     check.clearance = sweep_clearance(*around.cloud, sweep, attempt.part, parameters.collision);
-    check.unseen = unseen_share(*around.cloud, sweep);
     break;
   }
   return check;

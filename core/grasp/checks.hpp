@@ -6,6 +6,7 @@
 #include "core/detect/detections.hpp"
 #include "core/grasp/candidates.hpp"
 #include "core/grasp/cloud_map.hpp"
+#include "core/grasp/hidden_space.hpp"
 #include "core/grasp/pick.hpp"
 #include "core/grasp/walls.hpp"
 
@@ -14,6 +15,7 @@ namespace graspd {
 /// What a grasp may collide with.
 struct GraspSurroundings {
   const CloudMap* cloud = nullptr;
+  const HiddenSpace* hidden = nullptr;
   BinWalls walls;
   std::span<const Instance> instances;
   std::span<const Bank> banks;
@@ -26,7 +28,7 @@ struct GraspCheck {
   GraspRejection reason = GraspRejection::none;
   float opening = 0;    ///< Metres: the widest with which it passed; when none passed, the one that came furthest.
   float clearance = 0;  ///< Metres; meaningful only when it passed.
-  float unseen = 0;     ///< Share of a jaw (or cup) that moves where the sensor could not see; as the clearance.
+  float hidden = 0;     ///< Metres of clearance that hidden parts ask for on top; as the clearance.
 };
 
 /// Puts a grasp of instance number `instance` to the tests from `wall` on (see GraspRejection), with every opening

@@ -38,34 +38,6 @@ float cell_depth(const DepthFrame& frame, int left, int top, int step) {
   return 0.0F;
 }
 
-/// Walks `count` cells from `first` on, `stride` apart, and carries what was measured last into those that follow.
-void carry_front(const CloudMap& map, std::ptrdiff_t first, std::ptrdiff_t stride, int count) {
-  float last = unbounded;
-  for (int i = 0; i < count; ++i, first += stride) {
-    const auto cell = static_cast<std::size_t>(first);
-    if (map.depth[cell] > 0.0F) {
-      last = map.depth[cell];
-    } else {
-      map.front[cell] = std::min(map.front[cell], last);
-    }
-  }
-}
-
-void find_front(CloudMap& map) {
-  std::transform(map.depth.begin(), map.depth.end(), map.front.begin(),
-                 [](float depth) { return depth > 0.0F ? depth : unbounded; });
-  const int width = map.camera.width;
-  const int height = map.camera.height;
-  for (int v = 0; v < height; ++v) {
-    carry_front(map, std::ptrdiff_t{v} * width, 1, width);
-    carry_front(map, std::ptrdiff_t{v} * width + width - 1, -1, width);
-  }
-  for (int u = 0; u < width; ++u) {
-    carry_front(map, u, width, height);
-    carry_front(map, std::ptrdiff_t{height - 1} * width + u, -width, height);
-  }
-}
-
 void bound_tiles(CloudMap& map) {
   const Camera& camera = map.camera;
   std::fill(map.tiles.begin(), map.tiles.end(), Box{Vector3::Constant(unbounded), Vector3::Constant(-unbounded)});
@@ -100,7 +72,6 @@ void bound_tiles(CloudMap& map) {
 CloudMap carve_cloud_map(Arena& arena, std::uint32_t cells) {
   CloudMap map;
   map.depth_memory = arena.take<float>(cells, "grasp cloud");
-  map.front_memory = arena.take<float>(cells, "grasp cloud");
   // Enough for the worst shape, a single row of cells.
   map.tile_memory = arena.take<Box>(cells / CloudMap::tile_size + 2 * CloudMap::tile_size, "grasp cloud");
   return map;
@@ -119,13 +90,11 @@ void fill_cloud_map(const DepthFrame& frame, float spacing, float reference_dept
   const auto tiles = static_cast<std::size_t>(map.tile_columns) *
                      static_cast<std::size_t>(divided_up(map.camera.height, CloudMap::tile_size));
   map.depth = map.depth_memory.first(map.camera.pixel_count());
-  map.front = map.front_memory.first(map.camera.pixel_count());
   map.tiles = map.tile_memory.first(tiles);
   for (int v = 0; v < map.camera.height; ++v) {
     float* const row = map.depth.data() + map.camera.index(0, v);
     for (int u = 0; u < map.camera.width; ++u) row[u] = cell_depth(frame, u * step, v * step, step);
   }
-  find_front(map);
   bound_tiles(map);
 }
 

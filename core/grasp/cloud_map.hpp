@@ -17,12 +17,8 @@ struct CloudMap {
   Camera camera;  ///< Of the cells: the ray of cell (u, v) as Camera has it for pixels.
   int tile_columns = 0;
   std::span<float> depth;  ///< Metres along z, a cell each, row by row; 0: not measured.
-  /// Metres along z from where on a cell may hold something unseen: its depth, or, where nothing was measured, that of
-  /// the nearest of those measured next to it in its row and its column. Infinite: nothing was measured in either.
-  std::span<float> front;
-  std::span<Box> tiles;  ///< Bounds of the measured points, camera frame; empty ones have lower > upper.
+  std::span<Box> tiles;    ///< Bounds of the measured points, camera frame; empty ones have lower > upper.
   std::span<float> depth_memory;
-  std::span<float> front_memory;
   std::span<Box> tile_memory;
 };
 

@@ -11,6 +11,10 @@ struct HeldPart {
   Box bounds;  ///< Part frame.
 };
 
+/// Whether a measured point (tool frame) may be the part itself to a piece of the gripper that meets it.
+[[nodiscard]] bool is_part(const Vector3& point, const GripperPiece& piece, const Gripper& gripper,
+                           const HeldPart& part);
+
 /// A gripper that moves straight: in its tool frame, by `motion` metres from where it is.
 struct Sweep {
   RigidTransform camera_from_tool;
@@ -30,9 +34,5 @@ struct Sweep {
 /// an upper bound.
 [[nodiscard]] float sweep_clearance(const CloudMap& map, const Sweep& sweep, const HeldPart& part,
                                     const CollisionParameters& parameters);
-
-/// How much of its own volume a piece of the gripper moves through behind measured surfaces, where nobody knows what
-/// is there, on a way along z: the greatest such ratio of all pieces. Cells that were not measured count as seen.
-[[nodiscard]] float unseen_share(const CloudMap& map, const Sweep& sweep);
 
 }  // namespace graspd

@@ -24,7 +24,11 @@ struct CollisionParameters {
   float clearance_range = 0.010F;    ///< Metres; more clearance than this counts no more.
   float sample_spacing = 0.002F;     ///< Metres between the measured points looked at, at least; fixes the time taken.
   std::uint32_t minimum_points = 3;  ///< So many points make an obstacle (1 to 8): fewer are flying pixels.
-  float maximum_unseen = 0.10F;      ///< Share of a jaw (or cup) that may move where the sensor could not see.
+  /// Metres, in place of minimum_clearance, to what was measured and is neither a detected instance nor the bin; and so
+  /// much more for each tenfold of poses in which a part could hide in the gripper's way (hidden_part_share).
+  float unexplained_clearance = 0.0025F;
+  float hidden_clearance = 0.0018F;
+  float maximum_hidden = 0.01F;  ///< Of such poses, the share from which on a grasp is not tried at all.
 };
 
 /// The bin: a box without a lid.
@@ -73,7 +77,7 @@ struct RankingWeights {
   float clearance = 0.5F;
   float height = 1.0F;
   float turn = 0.1F;
-  float unseen = 1.0F;
+  float hidden = 5.0F;
   float height_range = 0.050F;  ///< Metres below the highest instance at which the height counts no more.
 };
 

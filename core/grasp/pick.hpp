@@ -10,19 +10,20 @@
 namespace graspd {
 
 /// Why an instance was found but not picked. A grasp is put to the tests in the order of `tool`, `opening`, `tilt`,
-/// `reach`, `avoided`, `wall`, `collision`, `unseen`, `neighbour`, `closing`, `retreat`; an instance has the reason of
+/// `reach`, `avoided`, `wall`, `collision`, `neighbour`, `unseen`, `closing`, `retreat`; an instance has the reason of
 /// its grasp that came furthest.
 enum class GraspRejection : std::uint8_t {
   none,
   no_grasp,   ///< The part file lists no grasp: graspd invents none, since it cannot know where a part may be held.
   tilt,       ///< The tool would lean further from the vertical than allowed.
   reach,      ///< The pick or the approach pose lies outside the robot's reach.
-  collision,  ///< On its way in the gripper would come too near to something that the sensor measured.
+  collision,  ///< On its way in the gripper would come too near to something that the sensor measured; nearer counts as
+              ///< too near beside what is neither a detected instance nor the bin.
   opening,    ///< The gripper cannot open that wide.
   tool,       ///< The cell has no tool of the kind, or of the number, that the grasp needs.
   avoided,    ///< A pick at this place failed not long ago.
   wall,       ///< On its way in the gripper would touch the bin.
-  unseen,     ///< The gripper would reach too far behind measured surfaces, where nobody knows what is there.
+  unseen,     ///< A part that the sensor could not see may well be in the way.
   neighbour,  ///< On its way in the gripper would touch another instance, where the sensor did not see it.
   closing,    ///< Closing, the jaws would catch something that is not the part.
   retreat,    ///< On the way out the gripper would touch something, or the held part the bin.

@@ -26,7 +26,7 @@ Pick pick_of(const GraspCandidate& candidate, const GraspCheck& check, const Par
   pick.tilt = candidate.tilt;
   pick.clearance = check.clearance;
   pick.value = grasp_value(
-      {grasp.priority, target.score, candidate.tilt, check.clearance, target.drop, candidate.turn, check.unseen},
+      {grasp.priority, target.score, candidate.tilt, check.clearance, target.drop, candidate.turn, check.hidden},
       parameters.weights, parameters.collision.clearance_range);
   pick.grasp = grasp.number;
   pick.tool = parameters.tools.tools[candidate.tool].number;
@@ -107,6 +107,7 @@ PickResult choose_pick(const DepthFrame& frame, const Detections& detections, st
   const std::span<const Instance> instances = detections.instances.first(count);
   if (count > 0) {
     fill_cloud_map(frame, parameters.collision.sample_spacing, reference_depth(instances), workspace.cloud);
+    fill_hidden_space(workspace.cloud, detections.instances, banks, workspace.hidden);
   }
 
   const Vector3 up = up_direction(parameters);
@@ -118,8 +119,13 @@ PickResult choose_pick(const DepthFrame& frame, const Detections& detections, st
     bin.robot_from_bin = result.bin.robot_from_bin;
   }
   // Those that the workspace cuts are in the way all the same.
-  const GraspSurroundings around{&workspace.cloud,  bin_walls(bin, up, camera_from_robot), detections.instances, banks,
-                                 camera_from_robot, camera_from_robot.rotation * up};
+  const GraspSurroundings around{&workspace.cloud,
+                                 &workspace.hidden,
+                                 bin_walls(bin, up, camera_from_robot),
+                                 detections.instances,
+                                 banks,
+                                 camera_from_robot,
+                                 camera_from_robot.rotation * up};
   float highest = -std::numeric_limits<float>::max();
   for (const Instance& instance : instances) {
     highest = std::max(highest, height_of(instance, banks, parameters, up));

@@ -28,8 +28,8 @@ float grasp_value(const GraspFigures& figures, const RankingWeights& weights, fl
   return weights.priority * static_cast<float>(figures.priority) + weights.score * figures.score +
          weights.tilt * std::cos(figures.tilt) + weights.clearance * share(figures.clearance, clearance_range) +
          weights.height * (1.0F - share(figures.drop, weights.height_range)) +
-         weights.turn * (1.0F - figures.turn / std::numbers::pi_v<float>)+weights.unseen *
-             (1.0F - std::min(figures.unseen, 1.0F));
+         weights.turn * (1.0F - figures.turn / std::numbers::pi_v<float>)+weights.hidden *
+             (1.0F - share(figures.hidden, clearance_range));
 }
 
 std::int32_t order_rank(std::span<const Instance> instances, std::span<const Bank> banks, std::size_t instance,

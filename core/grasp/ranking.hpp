@@ -18,7 +18,7 @@ struct GraspFigures {
   float clearance = 0;        ///< Metres, up to CollisionParameters::clearance_range.
   float drop = 0;             ///< Metres that the middle of the instance lies below that of the highest instance.
   float turn = 0;             ///< Radians between the tool and the preferred orientation.
-  float unseen = 0;           ///< Share of a jaw (or cup) that moves where the sensor could not see.
+  float hidden = 0;           ///< Metres of clearance that hidden parts ask for on top (hidden_part_clearance).
 };
 
 /// The value of a grasp; the highest is picked first, unless an order is asked for (order_rank). With the weights w,
@@ -30,7 +30,7 @@ struct GraspFigures {
 ///         + w.clearance * min(clearance / clearance_range, 1)
 ///         + w.height    * max(1 - drop / height_range, 0)
 ///         + w.turn      * (1 - turn / pi)
-///         + w.unseen    * max(1 - unseen, 0)
+///         + w.hidden    * max(1 - hidden / clearance_range, 0)
 [[nodiscard]] float grasp_value(const GraspFigures& figures, const RankingWeights& weights, float clearance_range);
 
 /// Where an instance stands in the order that OrderParameters ask for, in whole steps: the greatest comes first, the

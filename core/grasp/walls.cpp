@@ -1,6 +1,7 @@
 #include "core/grasp/walls.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace graspd {
 
@@ -12,6 +13,9 @@ BinWalls bin_walls(const BinParameters& bin, const Vector3& up, const RigidTrans
   const Vector3 outer = half + Vector3::Constant(bin.wall);
   result.thickness = bin.wall;
   const bool z_is_up = bin.opens_along_z(up);
+  constexpr float open = std::numeric_limits<float>::infinity();
+  result.inside = {Vector3(-half.x(), -half.y(), z_is_up ? -half.z() : -open),
+                   Vector3(half.x(), half.y(), z_is_up ? open : half.z())};
   const float rim_low = z_is_up ? -outer.z() : -half.z();
   const float rim_high = z_is_up ? half.z() : outer.z();
   for (const float side : {-1.0F, 1.0F}) {

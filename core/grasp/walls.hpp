@@ -13,6 +13,7 @@ struct BinWalls {
   RigidTransform camera_from_bin;
   std::array<Box, 5> walls;
   std::size_t count = 0;  ///< 0: there is no bin.
+  Box inside;             ///< Between them, without a lid; meaningful only when there is a bin.
   float thickness = 0;
 
   [[nodiscard]] std::span<const Box> all() const { return {walls.data(), count}; }

@@ -11,6 +11,7 @@ GraspWorkspace carve_grasp_workspace(Arena& arena, const GraspCapacity& capacity
   workspace.ranks = FixedVector(arena.take<std::int32_t>(capacity.instances, "picks"));
   workspace.rejected = FixedVector(arena.take<RejectedGrasp>(2 * std::size_t{capacity.instances}, "picks"));
   workspace.cloud = carve_cloud_map(arena, capacity.cloud_cells);
+  workspace.hidden = carve_hidden_space(arena, capacity.cloud_cells);
   workspace.wall_points = FixedVector(arena.take<WallPoint>(bin_fit_points, "grasp cloud"));
   return workspace;
 }

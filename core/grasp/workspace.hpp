@@ -3,6 +3,7 @@
 #include "core/grasp/bin_fit.hpp"
 #include "core/grasp/candidates.hpp"
 #include "core/grasp/cloud_map.hpp"
+#include "core/grasp/hidden_space.hpp"
 #include "core/grasp/parameters.hpp"
 #include "core/grasp/pick.hpp"
 #include "core/memory/arena.hpp"
@@ -19,6 +20,7 @@ struct GraspWorkspace {
   FixedVector<std::int32_t> ranks;  ///< order_rank of each instance.
   FixedVector<RejectedGrasp> rejected;
   CloudMap cloud;
+  HiddenSpace hidden;
   FixedVector<WallPoint> wall_points;
 };
 

@@ -3,7 +3,9 @@
 #include <fcl/narrowphase/collision.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
+#include <span>
 
 #include "core/grasp/checks.hpp"
 #include "core/grasp/planner.hpp"
@@ -142,35 +144,44 @@ void try_pile(const HeldShape& part, PileScene& scene, GraspWorkspace& workspace
   tally.answered += result.found ? 1 : 0;
 }
 
-TEST(GraspCollisions, NoChosenGraspCollidesAndFewFramesYieldNone) {
-  constexpr std::uint64_t piles = 8;
+/// Piles of three parts from `first` on, `count` of each.
+Tally try_piles(std::uint64_t first, std::uint64_t count, std::span<const Camera> cameras) {
   const std::vector<HeldShape> parts{held_block(), held_bar(), held_bracket()};
   const PileBin bin{0.110F, 0.090F};
-  const Camera camera{640, 480, 900.0F, 900.0F, 319.5F, 239.5F};
   GraspMemory memory;
-
   Tally tally;
   for (const HeldShape& part : parts) {
-    for (std::uint64_t seed = 1; seed <= piles; ++seed) {
+    for (std::uint64_t seed = first; seed < first + count; ++seed) {
       const auto strain = static_cast<SensorStrain>(seed % 3);
+      const Camera& camera = cameras[(seed / 3) % cameras.size()];
       PileScene scene = pile_scene(part, 6 + 2 * (seed % 6), bin, camera, strain, seed);
       try_pile(part, scene, memory.workspace, tally);
     }
   }
-  RecordProperty("frames", tally.frames);
-  RecordProperty("graspable", tally.graspable);
-  RecordProperty("answered", tally.answered);
-  RecordProperty("picks", tally.picks);
-  RecordProperty("collisions", tally.collisions);
   std::printf(
       "%d frames, %d with a free grasp, %d of them answered; %d first picks, %d collide; %d picks, %d collide\n",
       tally.frames, tally.graspable, tally.answered, tally.first_picks, tally.first_collisions, tally.picks,
       tally.collisions);
+  return tally;
+}
+
+constexpr Camera near_camera{640, 480, 900.0F, 900.0F, 319.5F, 239.5F};
+constexpr Camera wide_camera{640, 480, 650.0F, 650.0F, 319.5F, 239.5F};
+
+TEST(GraspCollisions, NoChosenGraspCollidesAndFewFramesYieldNone) {
+  const Tally tally = try_piles(1, 8, std::array{near_camera});
   EXPECT_GT(tally.graspable, tally.frames / 2);
   EXPECT_EQ(tally.first_collisions, 0);
   EXPECT_EQ(tally.collisions, 0);
   // Some free grasps pass through what the sensor did not see, where other parts may lie: those are not chosen.
-  EXPECT_GE(tally.answered, 0.85 * tally.graspable);
+  EXPECT_GE(tally.answered, 0.95 * tally.graspable);
+}
+
+// The figures of tests/benchmarks/README.md. Now and then a jaw meets a part of which next to nothing was measured.
+TEST(GraspCollisions, DISABLED_ManyPiles) {
+  const Tally tally = try_piles(5000, 120, std::array{near_camera, wide_camera});
+  EXPECT_LT(tally.first_collisions, 0.02 * tally.first_picks);
+  EXPECT_GE(tally.answered, 0.92 * tally.graspable);
 }
 
 }  // namespace

@@ -149,11 +149,13 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(grasp.parameters.weights.clearance);
   GRASPD_COMPARE(grasp.parameters.weights.height);
   GRASPD_COMPARE(grasp.parameters.weights.turn);
-  GRASPD_COMPARE(grasp.parameters.weights.unseen);
+  GRASPD_COMPARE(grasp.parameters.weights.hidden);
   GRASPD_COMPARE(grasp.parameters.weights.height_range);
   GRASPD_COMPARE(grasp.capacity.checks);
   GRASPD_COMPARE(grasp.capacity.cloud_cells);
-  GRASPD_COMPARE(grasp.parameters.collision.maximum_unseen);
+  GRASPD_COMPARE(grasp.parameters.collision.unexplained_clearance);
+  GRASPD_COMPARE(grasp.parameters.collision.hidden_clearance);
+  GRASPD_COMPARE(grasp.parameters.collision.maximum_hidden);
   GRASPD_COMPARE(grasp.parameters.retreat.direction);
   GRASPD_COMPARE(grasp.parameters.retreat.distance);
   GRASPD_COMPARE(grasp.parameters.order.order);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -86,6 +88,8 @@ struct GraspBank {
         }
       }
     }
+    // As in a bank, every prefix covers the part.
+    std::shuffle(surface.begin(), surface.end(), std::mt19937(1));
   }
 
   [[nodiscard]] Bank bank() const {

@@ -44,7 +44,7 @@ TEST_F(PlannerChecks, HeldPartKeepsOffTheWallsOnTheWayOut) {
 
 TEST_F(PlannerChecks, WayOutMayBeStraightUp) {
   part.grasps = {{turn(Vector3::UnitX(), 3.14159265F) * turn(Vector3::UnitX(), 0.5F), 0.040F, 1, 1}};
-  parameters.collision.maximum_unseen = 1.0F;
+  parameters.collision.maximum_hidden = 1.0F;
   add_block(0.0F, 0.0F, 0.585F);
   const PickResult alone = choose();
   ASSERT_TRUE(alone.found);
@@ -70,25 +70,43 @@ TEST_F(PlannerChecks, SidesOfOtherInstancesThatWereNotSeenAreInTheWay) {
   EXPECT_EQ(reason_of(choose()), GraspRejection::none);
 }
 
-TEST_F(PlannerChecks, StaysOutOfWhatNobodyHasSeen) {
+TEST_F(PlannerChecks, StaysOutOfShadowsThatCouldHideAPart) {
   part.grasps.resize(1);
+  parameters.collision.maximum_hidden = 0.001F;
   add_block(0.0F, 0.0F, 0.585F);
   ASSERT_EQ(reason_of(choose()), GraspRejection::none);
   // A plate high above hides one jaw's place without being in its way.
-  scene.boxes.push_back({shift(0.012F, 0.0F, 0.30F), Vector3(0.006F, 0.012F, 0.001F)});
+  scene.boxes.push_back({shift(0.012F, 0.0F, 0.30F), Vector3(0.003F, 0.006F, 0.001F)});
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none) << "no part fits into its shadow";
+  scene.boxes.back() = {shift(0.022F, 0.0F, 0.30F), Vector3(0.016F, 0.030F, 0.001F)};
   EXPECT_EQ(reason_of(choose()), GraspRejection::unseen);
-  parameters.collision.maximum_unseen = 1.0F;
+  parameters.collision.maximum_hidden = 1.0F;
   EXPECT_EQ(reason_of(choose()), GraspRejection::none);
 }
 
 TEST_F(PlannerChecks, StaysOutOfWhatWasNotMeasuredBesideThePart) {
   part.grasps.resize(1);
+  parameters.collision.maximum_hidden = 0.001F;
   add_block(0.0F, 0.0F, 0.585F);
   ASSERT_EQ(reason_of(choose()), GraspRejection::none);
-  scene.boxes.push_back({shift(0.0265F, 0.0F, 0.585F), Vector3(0.011F, 0.020F, 0.015F), true});
+  scene.boxes.push_back({shift(0.038F, 0.0F, 0.585F), Vector3(0.022F, 0.040F, 0.015F), true});
   EXPECT_EQ(reason_of(choose()), GraspRejection::unseen) << "nobody knows what is there";
-  scene.boxes.back().camera_from_box.translation.x() = 0.060F;
+  scene.boxes.back() = {shift(0.025F, 0.0F, 0.585F), Vector3(0.005F, 0.010F, 0.015F), true};
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none) << "no part fits into the gap";
+}
+
+TEST_F(PlannerChecks, KeepsFurtherFromWhatIsNeitherAPartNorTheBin) {
+  part.grasps.resize(1);
+  add_block(0.0F, 0.0F, 0.585F);
+  // The jaw's outside is 28 mm from the middle.
+  add_obstacle(0.040F, 0.0F, 0.585F);
+  EXPECT_EQ(reason_of(choose()), GraspRejection::collision) << "2 mm from it";
+  parameters.collision.unexplained_clearance = 0.001F;
   EXPECT_EQ(reason_of(choose()), GraspRejection::none);
+  parameters.collision.unexplained_clearance = 0.0025F;
+  scene.boxes.pop_back();
+  add_block(0.045F, 0.0F, 0.585F);
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none) << "2 mm from a part that was found";
 }
 
 TEST_F(PlannerChecks, JawsCatchNothingElseWhenTheyClose) {
@@ -100,6 +118,7 @@ TEST_F(PlannerChecks, JawsCatchNothingElseWhenTheyClose) {
 }
 
 TEST_F(PlannerChecks, OpensAsWideAsTheNeighboursLetIt) {
+  parameters.collision.unexplained_clearance = 0.001F;
   part.grasps = {{turn(Vector3::UnitX(), 3.14159265F), 0.060F, 1, 1, GraspKind::parallel, 0.034F, 0.030F}};
   add_block(0.0F, 0.0F, 0.585F);
   EXPECT_FLOAT_EQ(choose().best.opening, 0.060F);

@@ -65,6 +65,7 @@ TEST_F(Planner, PickIsTheSameWhicheverFrameTheRobotHas) {
 }
 
 TEST_F(Planner, OrdersByValueWithOnePickForEachInstance) {
+  parameters.weights.clearance = 0.5F;
   add_block(-0.08F, 0.0F, 0.585F, 0.0F, 0.95F);
   add_block(0.08F, 0.0F, 0.545F, 0.0F, 0.85F);
   add_block(0.0F, 0.05F, 0.585F, 0.0F, 0.90F);
@@ -132,18 +133,18 @@ TEST_F(Planner, CountsInstancesByReasonAndNamesTheMostFrequent) {
   EXPECT_EQ(result.main_reason, GraspRejection::tilt);
 }
 
-TEST_F(Planner, PrefersAGraspThatIsSeenWhole) {
+TEST_F(Planner, PrefersAGraspWhereNoPartCanHide) {
   add_block(0.0F, 0.0F, 0.585F);
   part.grasps[0].priority = part.grasps[1].priority;
-  part.grasps[0].number = 1;
-  parameters.collision.maximum_unseen = 1.0F;
+  parameters.collision.maximum_hidden = 1.0F;
   parameters.weights.clearance = 0.0F;
   ASSERT_EQ(choose().best.grasp, 1U);
-  scene.boxes.push_back({shift(0.0265F, 0.0F, 0.585F), Vector3(0.011F, 0.020F, 0.015F), true});
+  scene.boxes.push_back({shift(0.038F, 0.0F, 0.585F), Vector3(0.022F, 0.040F, 0.015F), true});
   EXPECT_EQ(choose().best.grasp, 2U);
 }
 
 TEST_F(Planner, OrdersByStrategy) {
+  parameters.weights.clearance = 0.5F;
   add_block(-0.10F, 0.0F, 0.585F, 0.0F, 0.95F);
   add_block(0.10F, 0.0F, 0.575F, 0.0F, 0.50F);
   add_block(-0.02F, -0.05F, 0.585F, 0.0F, 0.60F);

@@ -29,7 +29,7 @@ TEST(Ranking, EachFigureMovesTheValueTheRightWay) {
   better.turn = 0.5F;
   EXPECT_GT(grasp_value(better, weights, range), value);
   better = middling;
-  better.unseen = 0.1F;
+  better.hidden = 0.001F;
   EXPECT_GT(grasp_value(better, weights, range), value);
 }
 
@@ -43,7 +43,7 @@ TEST(Ranking, ValueFollowsTheFormula) {
   const RankingWeights w{2.0F, 3.0F, 5.0F, 7.0F, 11.0F, 13.0F, 17.0F, 0.040F};
   const float expected = 2.0F * 4.0F + 3.0F * 0.5F + 5.0F * std::cos(0.4F) + 7.0F * 0.5F + 11.0F * 0.5F +
                          13.0F * (1.0F - 1.0F / std::numbers::pi_v<float>)+17.0F * 0.75F;
-  EXPECT_NEAR(grasp_value({4, 0.5F, 0.4F, 0.005F, 0.020F, 1.0F, 0.25F}, w, range), expected, 1e-4F);
+  EXPECT_NEAR(grasp_value({4, 0.5F, 0.4F, 0.005F, 0.020F, 1.0F, 0.25F * range}, w, range), expected, 1e-4F);
 }
 
 TEST(Ranking, FiguresBeyondTheirRangeCountNoMore) {

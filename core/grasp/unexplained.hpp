@@ -1,0 +1,16 @@
+#pragma once
+
+#include "core/grasp/checks.hpp"
+#include "core/grasp/collision.hpp"
+
+namespace graspd {
+
+/// Whether a measured point (camera frame) lies on a detected instance or on the bin.
+[[nodiscard]] bool is_explained(const GraspSurroundings& around, const Vector3& point);
+
+/// Whether the gripper on its way comes nearer than `clearance` metres to a measured point that nothing explains: it
+/// belongs to a part that was not recognised, of which more is there than was seen.
+[[nodiscard]] bool nears_unexplained(const GraspSurroundings& around, const Sweep& sweep, const HeldPart& part,
+                                     float clearance);
+
+}  // namespace graspd
