@@ -43,7 +43,7 @@ struct Equipment {
   Result<LoadedBanks> banks = load_banks(configuration.banks);
   if (!banks.ok()) return banks.status();
   equipment.banks = std::move(banks).value();
-  Result<OpenedSource> frames = open_source(configuration.camera);
+  Result<OpenedSource> frames = open_source(configuration.camera, true);
   if (!frames.ok()) return frames.status();
   equipment.frames = std::move(frames).value();
   const MemoryPlan plan =
