@@ -15,6 +15,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr float minimum_conditioning = 0.001F;
 constexpr float fusion_overlap = 0.8F;  ///< Views that share this much of the larger one are fused.
+constexpr float unshown = 0.4F;         ///< A degenerate view that shows this share of what no other does is kept.
 
 std::size_t count_bits(std::span<const std::uint64_t> row) {
   return std::accumulate(row.begin(), row.end(), std::size_t{0}, [](std::size_t sum, std::uint64_t word) {
@@ -66,11 +67,14 @@ void list_candidates(const CandidateViews& candidates, const Judged& judged, Ban
   }
 }
 
-/// What is left once incomplete and degenerate candidates are out.
-std::vector<std::size_t> usable_candidates(const CandidateViews& candidates, const Judged& judged,
-                                           const SymmetryGroup& symmetry, float diameter,
-                                           const BankBuildParameters& parameters, BankReport& report) {
-  std::vector<std::size_t> usable;
+struct SiftedCandidates {
+  std::vector<std::size_t> usable;  ///< Complete, and firm enough to fix the pose,
+  std::vector<std::size_t> degenerate;
+};
+
+SiftedCandidates sift_candidates(const CandidateViews& candidates, const Judged& judged, const SymmetryGroup& symmetry,
+                                 float diameter, const BankBuildParameters& parameters, BankReport& report) {
+  SiftedCandidates sifted;
   for (std::size_t i = 0; i < candidates.directions.size(); ++i) {
     if (!candidates.eligible(i)) continue;
     const std::span<const std::uint64_t> seen = candidates.visibility.seen.row(i);
@@ -81,19 +85,20 @@ std::vector<std::size_t> usable_candidates(const CandidateViews& candidates, con
     } else if (pose_conditioning(candidates.samples, seen, symmetry, 0.5F * diameter) < minimum_conditioning) {
       ++report.views_degenerate;
       report.candidates[i].fate = CandidateFate::degenerate;
+      sifted.degenerate.push_back(i);
     } else {
-      usable.push_back(i);
+      sifted.usable.push_back(i);
     }
   }
-  if (usable.empty()) {
+  if (sifted.usable.empty()) {
     report.remarks.emplace_back("no view fixes the pose by itself: the fullest one is kept");
     std::size_t fullest = 0;
     for (std::size_t i = 0; i < judged.visible.size(); ++i) {
       if (candidates.eligible(i) && judged.visible[i] > judged.visible[fullest]) fullest = i;
     }
-    usable.push_back(fullest);
+    sifted.usable.push_back(fullest);
   }
-  return usable;
+  return sifted;
 }
 
 /// The largest share of `candidate` that a kept view or a twin of it shows, and which view that is.
@@ -113,6 +118,28 @@ Overlap largest_overlap(std::size_t candidate, std::span<const RefinedView> kept
     }
   }
   return largest;
+}
+
+/// Keeps those of the degenerate candidates that show sides which no kept view shows: without them a part that turns
+/// such a side to the sensor would never be voted for. `order`: the fullest first.
+void cover_rest(const CandidateViews& candidates, const Judged& judged, std::span<const std::size_t> order,
+                std::size_t most, std::vector<RefinedView>& kept, BankReport& report) {
+  const VisibilityRows& seen = candidates.visibility.seen;
+  std::vector<std::uint64_t> covered(seen.words_per_row, 0);
+  const auto cover = [&](std::size_t candidate) {
+    for (const std::size_t twin : candidates.orbits[candidate]) {
+      const std::span<const std::uint64_t> row = seen.row(twin);
+      for (std::size_t word = 0; word < row.size(); ++word) covered[word] |= row[word];
+    }
+  };
+  for (const RefinedView& view : kept) cover(view.candidate);
+  for (const std::size_t i : order) {
+    if (kept.size() >= most) return;
+    if (share(count_common(seen.row(i), covered), judged.visible[i]) > 1.0F - unshown) continue;
+    kept.push_back({i, {}, judged.completeness[i]});
+    cover(i);
+    --report.views_degenerate;
+  }
 }
 
 /// What the views fuse with: everything that shows nearly the same.
@@ -204,16 +231,18 @@ std::vector<RefinedView> refine_views(const CandidateViews& candidates, const Sy
   const auto most = static_cast<std::size_t>(parameters.maximum_views);
   std::vector<RefinedView> kept;
   if (parameters.refinement) {
-    std::vector<std::size_t> order = usable_candidates(candidates, judged, symmetry, diameter, parameters, report);
+    SiftedCandidates sifted = sift_candidates(candidates, judged, symmetry, diameter, parameters, report);
     const auto worth = [&](std::size_t i) {
       return static_cast<float>(judged.visible[i]) * (weights.empty() ? 1.0F : weights[i]);
     };
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const auto fuller = [&](std::size_t a, std::size_t b) {
       const bool a_measured = a >= candidates.rendered;
       const bool b_measured = b >= candidates.rendered;
       return a_measured != b_measured ? a_measured : worth(a) > worth(b);
-    });
-    for (const std::size_t i : order) {
+    };
+    std::stable_sort(sifted.usable.begin(), sifted.usable.end(), fuller);
+    std::stable_sort(sifted.degenerate.begin(), sifted.degenerate.end(), fuller);
+    for (const std::size_t i : sifted.usable) {
       const Overlap overlap = largest_overlap(i, kept, candidates, judged);
       if (overlap.share > parameters.maximum_overlap) {
         ++report.views_merged;
@@ -223,6 +252,7 @@ std::vector<RefinedView> refine_views(const CandidateViews& candidates, const Sy
         kept.push_back({i, {}, judged.completeness[i]});
       }
     }
+    cover_rest(candidates, judged, sifted.degenerate, most, kept, report);
   } else {
     kept = evenly_spread(candidates, judged, most);
   }

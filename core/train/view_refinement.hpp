@@ -24,7 +24,8 @@ struct RefinedView {
 
 /// Drops incomplete and degenerate candidates and those that overlap a kept view too much, modulo symmetry
 /// (paper 2.2); the fullest views are kept first, by what they show times their `weights` (one for each candidate;
-/// none: all alike), those cut out of frames before rendered ones. With fusion, each kept view is joined by all
+/// none: all alike), those cut out of frames before rendered ones. Degenerate candidates that show a side of the part
+/// which no other does are kept all the same. With fusion, each kept view is joined by all
 /// candidates that show nearly the same (paper 2.3). Counts what it dropped in `report`, and the fate of each
 /// candidate. At least one view is kept. Without refinement, evenly spread candidates are kept as they are.
 [[nodiscard]] std::vector<RefinedView> refine_views(const CandidateViews& candidates, const SymmetryGroup& symmetry,

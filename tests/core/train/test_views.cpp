@@ -140,6 +140,21 @@ TEST(ViewRefinement, EverySideOfABracketIsCoveredByAKeptView) {
   }
 }
 
+TEST(ViewRefinement, ADegenerateViewIsKeptForASideThatNoOtherShows) {
+  const Studio studio(shapes::box(0.05F, 0.05F, 0.05F), 0.0866F,
+                      {Vector3(1, 1, 1).normalized(), Vector3(-Vector3::UnitZ()), Vector3::UnitZ()});
+  BankReport report;
+  BankBuildParameters parameters;
+  parameters.minimum_completeness = 0.1F;
+  const auto kept = studio.refined({}, parameters, report);
+  ASSERT_EQ(kept.size(), 2U);
+  EXPECT_EQ(kept[0].candidate, 0U);
+  EXPECT_EQ(kept[1].candidate, 1U);
+  EXPECT_EQ(report.candidates[1].fate, CandidateFate::kept);
+  EXPECT_EQ(report.candidates[2].fate, CandidateFate::degenerate);
+  EXPECT_EQ(report.views_degenerate, 1);
+}
+
 TEST(ViewRefinement, TheHeaviestOfAlikeViewsIsKeptFirst) {
   const std::vector<Vector3> corners{Vector3(1, 1, 1).normalized(), Vector3(-1, -1, -1).normalized(),
                                      Vector3(1, -1, 1).normalized()};

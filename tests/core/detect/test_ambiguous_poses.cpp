@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/geometry/symmetry.hpp"
+#include "tests/core/detect/bracket_scene.hpp"
+#include "tests/core/train/shapes.hpp"
+
+namespace graspd {
+namespace {
+
+constexpr float height = 0.02F;
+
+/// A box of 60 x 36 x 20 mm, with the half turns that its part file gives.
+PartDescription box_part(const std::vector<RigidTransform>& symmetry) {
+  PartDescription part;
+  part.name = "box";
+  part.part_id = 1;
+  part.mesh = shapes::box(0.06F, 0.036F, height);
+  part.symmetry_given = true;
+  part.symmetry_discrete = symmetry;
+  return part;
+}
+
+std::vector<RigidTransform> half_turns() {
+  std::vector<RigidTransform> turns;
+  for (const Vector3& axis : {Vector3(Vector3::UnitX()), Vector3(Vector3::UnitY()), Vector3(Vector3::UnitZ())})
+    turns.push_back(turn_about({axis, Vector3::Zero()}, std::numbers::pi_v<float>));
+  return turns;
+}
+
+/// Detects boxes on a floor with a bank made from `part`.
+class Boxes {
+ public:
+  explicit Boxes(const PartDescription& part) {
+    BankReport report;
+    Result<std::vector<std::byte>> built = build_bank(part, {}, report, [](float) {});
+    EXPECT_TRUE(built.ok());
+    file_ = std::move(built).value();
+    bank_ = read_bank(file_, "box").value();
+    for (const float yaw : {0.3F, 1.4F}) {
+      const Matrix3 turn = Eigen::AngleAxisf(yaw, Vector3::UnitZ()).toRotationMatrix();
+      draw_depth(part.mesh.view(), {turn, Vector3(0.1F * (yaw - 0.8F), 0.01F, floor - 0.5F * height)}, camera_, depth_);
+    }
+    DetectRequest request;
+    request.banks = std::span(&bank_, 1);
+    EXPECT_TRUE(detect({camera_, depth_, 0, 0}, request, {}, memory_.workspace, detections).ok());
+  }
+  [[nodiscard]] std::uint32_t rejected(Rejection reason) const {
+    return detections.rejections[static_cast<std::size_t>(reason)];
+  }
+
+  Detections detections;
+
+ private:
+  static constexpr float floor = 0.55F;
+  Camera camera_{400, 300, 500.0F, 500.0F, 199.5F, 149.5F};
+  std::vector<float> depth_ = std::vector<float>(camera_.pixel_count(), floor);
+  std::vector<std::byte> file_;
+  Bank bank_;
+  DetectMemory memory_{1};
+};
+
+TEST(AmbiguousPoses, ABoxWhoseHalfTurnsCountAsOtherPosesIsNotReported) {
+  const Boxes boxes(box_part({}));
+  EXPECT_TRUE(boxes.detections.instances.empty());
+  EXPECT_EQ(boxes.rejected(Rejection::ambiguous), 2U);
+}
+
+TEST(AmbiguousPoses, ABoxWithItsSymmetryIs) {
+  const Boxes boxes(box_part(half_turns()));
+  EXPECT_EQ(boxes.detections.instances.size(), 2U);
+  EXPECT_EQ(boxes.rejected(Rejection::ambiguous), 0U);
+}
+
+}  // namespace
+}  // namespace graspd
