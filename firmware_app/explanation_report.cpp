@@ -18,8 +18,8 @@ constexpr std::array<const char*, visibility_class_count> visibility_names{"< 0.
 
 /// The order in which a hypothesis meets its tests.
 constexpr std::array<Rejection, rejection_count - 1> test_order{
-    Rejection::weak,     Rejection::overlap, Rejection::boundary,  Rejection::edge,        Rejection::below_plane,
-    Rejection::floating, Rejection::score,   Rejection::duplicate, Rejection::intersecting};
+    Rejection::weak,  Rejection::overlap,   Rejection::boundary,     Rejection::edge,     Rejection::below_plane,
+    Rejection::score, Rejection::duplicate, Rejection::intersecting, Rejection::ambiguous};
 
 double wide(float value) { return static_cast<double>(value); }
 

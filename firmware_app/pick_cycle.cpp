@@ -52,10 +52,12 @@ DetectRequest detect_request(const PickCycle& cycle, const PlcRequest& request) 
 }
 
 /// The test at which most hypotheses fell. Those that were weak from the start or repeat an instance
-/// say nothing of why the others are missing, so they count only when there is no other reason.
+/// say nothing of why the others are missing, so they count only when there is no other reason. Parts that were
+/// recognised but for their pose come first.
 Rejection main_rejection(const Detections& detections) {
-  Rejection main =
-      detections.rejections[static_cast<std::size_t>(Rejection::weak)] > 0 ? Rejection::weak : Rejection::none;
+  const auto count = [&](Rejection reason) { return detections.rejections[static_cast<std::size_t>(reason)]; };
+  if (count(Rejection::ambiguous) > 0) return Rejection::ambiguous;
+  Rejection main = count(Rejection::weak) > 0 ? Rejection::weak : Rejection::none;
   std::uint32_t most = 0;
   for (std::size_t i = 0; i < rejection_count; ++i) {
     const auto reason = static_cast<Rejection>(i);

@@ -16,8 +16,8 @@ const char* rejection_name(Rejection rejection) {
       return "edge";
     case Rejection::below_plane:
       return "below plane";
-    case Rejection::floating:
-      return "floating";
+    case Rejection::ambiguous:
+      return "ambiguous";
     case Rejection::intersecting:
       return "intersecting";
     case Rejection::duplicate:

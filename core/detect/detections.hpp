@@ -17,10 +17,10 @@ enum class Rejection : std::uint8_t {
   boundary,      ///< Boundary testing: model where the scene shows free space.
   edge,          ///< Edge consistency testing.
   below_plane,   ///< Spatial pose testing: below the plane or behind the background.
-  floating,      ///< Spatial pose testing: nothing could carry the part there.
   intersecting,  ///< Spatial pose testing: inside an instance that was accepted before.
   duplicate,     ///< The surface that confirms it was claimed by a better instance.
   score,         ///< The final score is below the threshold.
+  ambiguous,     ///< Another pose explains the same surface as well, or nearly.
 };
 inline constexpr std::size_t rejection_count = 10;
 

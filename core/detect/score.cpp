@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace graspd {
 
@@ -18,8 +19,8 @@ float outline_weight(const Evidence& evidence) {
 
 }  // namespace
 
-float score_of(const Evidence& evidence, bool in_company) {
-  if (evidence.confirmed == 0.0F) return 0.0F;
+float log_odds_of(const Evidence& evidence, bool in_company) {
+  if (evidence.confirmed == 0.0F) return -std::numeric_limits<float>::infinity();
   // A logistic regression over the best hypotheses at each place, right or wrong by MSSD, in simulated bins of two
   // dozen parts before sharp and blurred sensors, in bins that hold none of the parts that were looked for, and in
   // piles of boxes, bottles, rods, tubes, profiles and other shapes that are no part of anyone's. The constant is
@@ -31,11 +32,18 @@ float score_of(const Evidence& evidence, bool in_company) {
   const float locked_surface = std::min(evidence.lock, 0.3F) * std::log1p(evidence.confirmed);
   // Where the surface could slide it fits closely, or is another one.
   const float sliding_misfit = evidence.misfit * std::exp(-evidence.lock / 0.05F);
-  const float sum = -11.5F + 1.54F * log_odds(evidence.visible) - 0.75F * log_odds(evidence.measured) +
-                    3.13F * outline - 9.4F * evidence.misfit - 8.93F * sliding_misfit -
-                    1.3F * std::log1p(evidence.gap) + 2.94F * std::log1p(evidence.outline) + 3.8F * locked_surface +
-                    (in_company ? 2.4F : 0.0F);
-  return 1.0F / (1.0F + std::exp(-sum));
+  return -11.5F + 1.54F * log_odds(evidence.visible) - 0.75F * log_odds(evidence.measured) + 3.13F * outline -
+         9.4F * evidence.misfit - 8.93F * sliding_misfit - 1.3F * std::log1p(evidence.gap) +
+         2.94F * std::log1p(evidence.outline) + 3.8F * locked_surface + (in_company ? 2.4F : 0.0F);
+}
+
+float score_of(const Evidence& evidence, bool in_company) {
+  return 1.0F / (1.0F + std::exp(-log_odds_of(evidence, in_company)));
+}
+
+float rival_weight(float lead) {
+  // Fitted to the poses reported in simulated bins of parts with twins; higher than right, as the score is lower.
+  return std::exp(1.2F - 8.0F * lead);
 }
 
 std::array<TestOutcome, evidence_test_count> test_outcomes(const Evidence& evidence, const VerifyParameters& parameters,

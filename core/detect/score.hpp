@@ -13,6 +13,14 @@ namespace graspd {
 /// anything.
 [[nodiscard]] float score_of(const Evidence& evidence, bool in_company);
 
+/// The logarithm of the odds of that likelihood.
+[[nodiscard]] float log_odds_of(const Evidence& evidence, bool in_company);
+
+/// How much a pose that explains the same surface as another takes from the other's score, which is divided by one more
+/// than the sum of these: `lead` is how far the other's log odds are above those of this one. Of poses that look alike
+/// none is sure enough to be reported.
+[[nodiscard]] float rival_weight(float lead);
+
 /// An instance with this score or more, taken alone, is company for others of its part.
 inline constexpr float sure_score = 0.5F;
 

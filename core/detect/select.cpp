@@ -83,6 +83,55 @@ bool in_company(const Instance& instance, const FixedVector<Instance>& accepted)
   });
 }
 
+/// The accepted instance, from 1, that claims the most of the model's surface; 0 for nobody. Found by majority vote
+/// (Boyer and Moore 1981).
+std::uint16_t main_claimant(const SceneMap& map, const RenderedModel& model, std::span<const std::uint16_t> claimed) {
+  std::uint16_t holder = 0;
+  int lead = 0;
+  for (int v = 0; v < model.rectangle.height; ++v) {
+    for (int u = 0; u < model.rectangle.width; ++u) {
+      if (model.front[model.camera.index(u, v)] == 0.0F) continue;
+      const std::uint16_t number = claimed[map.camera.index(model.rectangle.left + u, model.rectangle.top + v)];
+      if (number == 0) continue;
+      if (lead == 0) holder = number;
+      lead += number == holder ? 1 : -1;
+    }
+  }
+  return holder;
+}
+
+/// Whether two instances say something different: another part, or a pose that moves some of it by a tenth of the
+/// diameter.
+bool differ(const Bank& bank, const Instance& a, const Instance& b) {
+  if (a.bank != b.bank) return true;
+  constexpr std::size_t looked_at = 100;
+  const float apart = 0.1F * bank.part->diameter;
+  const RigidTransform nearest = nearest_symmetric(a.camera_from_part, b.camera_from_part, bank.symmetry());
+  const std::size_t step = std::max<std::size_t>(1, bank.surface.size() / looked_at);
+  for (std::size_t i = 0; i < bank.surface.size(); i += step) {
+    const Vector3& point = bank.surface[i].position;
+    if ((nearest * point - b.camera_from_part * point).squaredNorm() > apart * apart) return true;
+  }
+  return false;
+}
+
+/// Holds a pose of claimed surface against the instance that claims it. What it leaves unexplained speaks against it.
+void note_rival(const Selection& selection, const Instance& rival, const RenderedModel& model,
+                SelectWorkspace& workspace, const FixedVector<Instance>& accepted) {
+  constexpr float worth_of_all = 5.0F;  // In log odds.
+  const std::uint16_t holder = main_claimant(selection.map, model, workspace.claimed);
+  if (holder == 0) return;
+  const Instance& claimant = accepted[holder - 1U];
+  if (!differ(selection.banks[rival.bank], rival, claimant)) return;
+  const auto explained = [&](const Instance& instance) {
+    const float diameter = selection.banks[instance.bank].part->diameter;
+    return instance.evidence.confirmed * diameter * diameter;
+  };
+  const float unexplained = std::max(0.0F, 1.0F - explained(rival) / explained(claimant));
+  Standing& standing = workspace.standings[holder - 1U];
+  standing.rivals += rival_weight(standing.own - log_odds_of(rival.evidence, false) + worth_of_all * unexplained);
+}
+
 enum class Outcome : std::uint8_t { accepted, refused, no_room };
 
 /// Judges a hypothesis anew by what the accepted ones leave of the scene, and claims its surface if it holds.
@@ -99,8 +148,10 @@ Outcome consider(const Selection& selection, Instance& instance, SelectWorkspace
   instance.rejection = Rejection::none;
   if (own.confirmed < 0.5F * instance.evidence.confirmed) {
     instance.rejection = Rejection::duplicate;
+    note_rival(selection, instance, model, workspace, accepted);
     return Outcome::refused;
   }
+  const float alone = log_odds_of(instance.evidence, false);
   instance.evidence = own;
   instance.score = score_of(own, in_company(instance, accepted));
   if (parameters.tests) instance.rejection = failed_test(own, parameters, bank.part->thresholds);
@@ -112,8 +163,29 @@ Outcome consider(const Selection& selection, Instance& instance, SelectWorkspace
   if (instance.rejection != Rejection::none) return Outcome::refused;
   claim(selection.map, model, tolerance, static_cast<std::uint16_t>(accepted.size() + 1), workspace.claimed);
   workspace.rooms.push_back({model.rectangle, used});
+  workspace.standings.push_back({alone});
   accepted.push_back(instance);
   return Outcome::accepted;
+}
+
+/// Divides the scores between poses of the same surface; instances that are not sure enough then are rejected.
+void settle_rivalries(const Selection& selection, std::span<const Standing> standings, FixedVector<Instance>& accepted,
+                      FixedVector<Instance>& rejected) {
+  for (std::size_t k = 0; k < accepted.size(); ++k) {
+    Instance& instance = accepted[k];
+    instance.score = score_of(instance.evidence, in_company(instance, accepted));
+    instance.score /= 1.0F + standings[k].rivals;
+    if (instance.score < selection.threshold(instance)) instance.rejection = Rejection::ambiguous;
+  }
+  std::size_t kept = 0;
+  for (const Instance& instance : accepted) {
+    if (instance.rejection == Rejection::none) {
+      accepted[kept++] = instance;
+    } else {
+      rejected.push_back(instance);
+    }
+  }
+  accepted.truncate(kept);
 }
 
 /// Whether what others claim can still speak for a refused hypothesis.
@@ -131,6 +203,7 @@ SelectWorkspace carve_select_workspace(Arena& arena, const DetectCapacity& capac
   workspace.front = arena.take<float>(std::size_t{3} * capacity.map_cells, "selection");
   workspace.back = arena.take<float>(std::size_t{3} * capacity.map_cells, "selection");
   workspace.rooms = FixedVector(arena.take<OccupiedRoom>(capacity.instances, "selection"));
+  workspace.standings = FixedVector(arena.take<Standing>(capacity.instances, "selection"));
   return workspace;
 }
 
@@ -140,6 +213,7 @@ std::uint32_t select_instances(const SceneMap& map, std::span<const Bank> banks,
   const Selection selection{map, banks, parameters, minimum_score};
   std::uint32_t flags = 0;
   workspace.rooms.clear();
+  workspace.standings.clear();
   std::fill_n(workspace.claimed.begin(), map.cells.size(), std::uint16_t{0});
   std::span<std::uint32_t> order = workspace.order.first(judged.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -169,7 +243,7 @@ std::uint32_t select_instances(const SceneMap& map, std::span<const Bank> banks,
     if (round > 0 && accepted.size() == accepted_before) break;
   }
   for (const std::uint32_t j : order) rejected.push_back(judged[j]);
-  for (Instance& instance : accepted) instance.score = score_of(instance.evidence, in_company(instance, accepted));
+  settle_rivalries(selection, workspace.standings.span(), accepted, rejected);
   std::sort(accepted.begin(), accepted.end(), surer);
   return flags;
 }

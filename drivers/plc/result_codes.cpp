@@ -61,8 +61,8 @@ ResultReason result_reason(Rejection rejection) {
       return ResultReason::edge;
     case Rejection::below_plane:
       return ResultReason::below_plane;
-    case Rejection::floating:
-      return ResultReason::floating;
+    case Rejection::ambiguous:
+      return ResultReason::ambiguous;
     case Rejection::intersecting:
       return ResultReason::intersecting;
     case Rejection::duplicate:

@@ -45,6 +45,7 @@ class Boxes {
     }
     DetectRequest request;
     request.banks = std::span(&bank_, 1);
+    request.minimum_score = 0.6F;
     EXPECT_TRUE(detect({camera_, depth_, 0, 0}, request, {}, memory_.workspace, detections).ok());
   }
   [[nodiscard]] std::uint32_t rejected(Rejection reason) const {

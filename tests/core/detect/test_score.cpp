@@ -87,6 +87,12 @@ TEST(Score, CompanyOfASureInstanceMakesAnotherLikelier) {
   EXPECT_GT(score_of(evidence, true), 5.0F * score_of(evidence, false));
 }
 
+TEST(Score, OfTwoPosesThatExplainTheSameNeitherIsSure) {
+  const VerifyThresholds thresholds;
+  EXPECT_LT(1.0F / (1.0F + rival_weight(0.0F)), thresholds.minimum_score);
+  EXPECT_GT(1.0F / (1.0F + rival_weight(1.0F)), 0.95F);
+}
+
 TEST(EvidenceTests, FirstFailureIsNamed) {
   const VerifyParameters parameters;
   const VerifyThresholds thresholds;

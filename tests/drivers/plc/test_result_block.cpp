@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <set>
+#include <string>
 
 #include "drivers/plc/coherent_words.hpp"
 #include "drivers/plc/register_tables.hpp"
@@ -197,7 +199,12 @@ TEST(ResultCodes, AreUniqueAndFollowTheStatusCodes) {
 
 TEST(ResultReasons, CoverEveryRejection) {
   for (std::size_t i = 1; i < rejection_count; ++i) {
-    EXPECT_EQ(static_cast<std::size_t>(result_reason(static_cast<Rejection>(i))), i);
+    const auto rejection = static_cast<Rejection>(i);
+    const ResultReason reason = result_reason(rejection);
+    EXPECT_LT(static_cast<int>(reason), 100);
+    std::string name = rejection_name(rejection);
+    std::replace(name.begin(), name.end(), ' ', '_');
+    EXPECT_EQ(result_reason_name(reason), name);
   }
   for (std::size_t i = 1; i < grasp_rejection_count; ++i) {
     const ResultReason reason = result_reason(static_cast<GraspRejection>(i));
