@@ -15,6 +15,7 @@ namespace {
 constexpr double weight_of_hidden = 0.5;
 constexpr double price_of_doubling = 0.02;  ///< Of merit, for twice as many points, which take thrice the time or more.
 constexpr float price_without_edges = 0.1F;  ///< Of merit: bins hold things that nobody has simulated.
+constexpr float worth_changing = 0.03F;      ///< Of merit: bins as few as these do not tell smaller differences apart.
 constexpr float building_share = 0.15F;      ///< Of the progress.
 
 /// A setting while it is tried.
@@ -169,6 +170,9 @@ Status adapt_to_bins(const PartDescription& part, const AdaptationParameters& ad
     if (!tried.ok()) return tried;
   }
   std::vector<std::size_t> order = ranked(candidates);
+  // The usual sampling always competes: others must be better than it.
+  const auto is_usual = [&](std::size_t i) { return candidates[i].build.sampling == parameters.sampling; };
+  std::stable_partition(order.begin(), order.end(), is_usual);
   order.resize(finalists);
   for (const std::size_t finalist : order) {
     const Status tried = try_candidate(trial.value(), std::span(bins).subspan(first_bins), adaptation.bins.threads,
@@ -178,9 +182,9 @@ Status adapt_to_bins(const PartDescription& part, const AdaptationParameters& ad
   std::sort(order.begin(), order.end());
   report = {};
   for (const Candidate& candidate : candidates) report.trials.push_back(candidate.trial);
-  report.chosen = *std::max_element(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return candidates[a].trial.merit < candidates[b].trial.merit;
-  });
+  const auto merit = [&](std::size_t i) { return candidates[i].trial.merit + (is_usual(i) ? worth_changing : 0.0F); };
+  report.chosen =
+      *std::max_element(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return merit(a) < merit(b); });
   parameters.sampling = report.trials[report.chosen].sampling;
   if (!tries_edges) return {};
   const Status tried =

@@ -17,7 +17,7 @@ struct AdaptationParameters {
   std::vector<float> samplings{0.06F, 0.05F, 0.042F, 0.035F};
   std::size_t first_bins = 5;     ///< Simulated bins in which every setting is tried,
   std::size_t last_bins = 10;     ///< those in which the best ones are, the first among them,
-  std::size_t finalists = 2;      ///< how many these are,
+  std::size_t finalists = 2;      ///< how many these are, the usual one among them,
   std::size_t stranger_bins = 3;  ///< bins of other things, in which edges must prove to be superfluous,
   std::size_t rating_bins = 8;    ///< and further ones, unknown to the choice, in which what it finds is measured.
   bool edges = true;              ///< Try whether edges judge poses at all.
@@ -45,8 +45,9 @@ struct AdaptationReport {
 [[nodiscard]] float adaptation_merit(const TrialOutcome& outcome);
 
 /// Chooses `parameters.sampling` for the part, and whether edges judge poses: makes a bank for each setting and tries
-/// it on simulated bins of the part, the better ones on more. Points cost time on the line, so that a doubling of them
-/// must pay; so must doing without edges. The same part gives the same choice. `progress` is called with a share in
+/// it on simulated bins of the part, the better ones on more. The sampling that `parameters` come with stays unless
+/// another is clearly better. Points cost time on the line, so that a doubling of them must pay; so must doing without
+/// edges. The same part gives the same choice. `progress` is called with a share in
 /// [0, 1]. Fails as build_bank().
 [[nodiscard]] Status adapt_to_bins(const PartDescription& part, const AdaptationParameters& adaptation,
                                    const std::function<void(float)>& progress, BankBuildParameters& parameters,
