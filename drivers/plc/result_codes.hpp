@@ -110,7 +110,7 @@ inline constexpr std::array<ResultReasonEntry, 23> result_reason_table{{
     {ResultReason::none, "none"},           {ResultReason::weak, "weak"},
     {ResultReason::overlap, "overlap"},     {ResultReason::boundary, "boundary"},
     {ResultReason::edge, "edge"},           {ResultReason::below_plane, "below_plane"},
-    {ResultReason::ambiguous, "ambiguous"},   {ResultReason::intersecting, "intersecting"},
+    {ResultReason::ambiguous, "ambiguous"}, {ResultReason::intersecting, "intersecting"},
     {ResultReason::duplicate, "duplicate"}, {ResultReason::score, "score"},
     {ResultReason::no_grasp, "no_grasp"},   {ResultReason::tilt, "tilt"},
     {ResultReason::reach, "reach"},         {ResultReason::collision, "collision"},
