@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace graspd {
 
@@ -163,14 +164,11 @@ const char* shape_fault(const Bank& bank) {
   if (bank.symmetry_discrete.empty() || !is_identity(bank.symmetry_discrete.front())) {
     return "its symmetries do not begin with the identity";
   }
-  if (!std::all_of(bank.symmetry_discrete.begin(), bank.symmetry_discrete.end(),
-                   [&](const RigidTransform& t) { return keeps_place(*bank.part, t); })) {
-    return "a symmetry is not a rigid transform";
-  }
-  if (!std::all_of(bank.twins.begin(), bank.twins.end(),
-                   [&](const RigidTransform& t) { return keeps_place(*bank.part, t); })) {
-    return "a twin is not a rigid transform";
-  }
+  const auto all_keep_place = [&](std::span<const RigidTransform> poses) {
+    return std::all_of(poses.begin(), poses.end(), [&](const RigidTransform& t) { return keeps_place(*bank.part, t); });
+  };
+  if (!all_keep_place(bank.symmetry_discrete)) return "a symmetry is not a rigid transform";
+  if (!all_keep_place(bank.twins)) return "a twin is not a rigid transform";
   for (const PartGrasp& grasp : bank.grasps) {
     if (!is_rigid(grasp.part_from_tool)) return "a grasp is not a rigid transform";
     const auto kind = static_cast<std::uint32_t>(grasp.kind);
