@@ -177,7 +177,8 @@ TEST(GraspCollisions, NoChosenGraspCollidesAndFewFramesYieldNone) {
   EXPECT_GE(tally.answered, 0.95 * tally.graspable);
 }
 
-// The figures of tests/benchmarks/README.md. Now and then a jaw meets a part of which next to nothing was measured.
+// Makes the figures of tests/benchmarks/README.md: minutes, too long for every run. Now and then a jaw meets a part of
+// which next to nothing was measured.
 TEST(GraspCollisions, DISABLED_ManyPiles) {
   const Tally tally = try_piles(5000, 120, std::array{near_camera, wide_camera});
   EXPECT_LT(tally.first_collisions, 0.02 * tally.first_picks);
