@@ -183,6 +183,7 @@ void read_build(SettingsTable table, PartFile& file) {
   file.sampling_given = table.has("sampling");
   file.edges_given = table.has("edges_judge");
   table.read("sampling", build.sampling, 0.01, 0.2);
+  table.read("detail", build.detail, 0.1, 1);
   table.read("angle_bins", build.angle_bins, 6, 36);
   table.read("candidate_views", build.candidate_views, 12, 2562);
   table.read("maximum_views", build.maximum_views, 1, 200);

@@ -44,6 +44,12 @@ TEST_F(PartFileText, ASamplingOfTheFileIsToldFromTheDefault) {
   EXPECT_FLOAT_EQ(given.build.sampling, 0.04F);
 }
 
+TEST_F(PartFileText, TheDetailCanBeSet) {
+  EXPECT_FLOAT_EQ(read("").value().build.detail, BankBuildParameters{}.detail);
+  EXPECT_FLOAT_EQ(read("[build]\ndetail = 0.4\n").value().build.detail, 0.4F);
+  EXPECT_THAT(complaint("[build]\ndetail = 1.5\n"), StartsWith("part.toml:5: build.detail"));
+}
+
 TEST_F(PartFileText, EmptySymmetrySectionMeansNone) {
   const Result<PartFile> result = read("[symmetry]\n");
   ASSERT_TRUE(result.ok()) << result.status().message();
