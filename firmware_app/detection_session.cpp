@@ -17,12 +17,21 @@ DetectCapacity fitted_capacity(DetectCapacity base, const FrameLimits& limits, s
 }
 
 void DetectionSession::fit(const FrameLimits& limits, std::span<const Bank> banks, int threads) {
-  if (limits.maximum_width <= limits_.maximum_width && limits.maximum_height <= limits_.maximum_height) return;
-  limits_ = {std::max(limits.maximum_width, limits_.maximum_width),
-             std::max(limits.maximum_height, limits_.maximum_height)};
   DetectCapacity base;
   base.threads = threads;
-  const DetectCapacity capacity = fitted_capacity(base, limits_, banks);
+  const DetectCapacity needed = fitted_capacity(base, limits, banks);
+  bool enough = block_.bytes().size() > 0;
+  const auto widen = [&](auto& has, const auto& needs) {
+    enough = enough && needs <= has;
+    has = std::max(has, needs);
+  };
+  DetectCapacity capacity = enough ? workspace_.capacity : needed;
+  widen(capacity.maximum_width, needed.maximum_width);
+  widen(capacity.maximum_height, needed.maximum_height);
+  widen(capacity.maximum_references, needed.maximum_references);
+  widen(capacity.maximum_cells, needed.maximum_cells);
+  widen(capacity.threads, needed.threads);
+  if (enough) return;
   Arena measure = Arena::measuring();
   static_cast<void>(carve_detect_workspace(measure, capacity));
   block_ = MemoryBlock(measure.used());

@@ -29,7 +29,6 @@ class DetectionSession {
   [[nodiscard]] const DetectCapacity& capacity() const { return workspace_.capacity; }
 
  private:
-  FrameLimits limits_;
   MemoryBlock block_;
   DetectWorkspace workspace_;
 };
