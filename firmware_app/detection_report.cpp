@@ -14,10 +14,11 @@ namespace {
 /// Keeps the keys in the order in which they are written.
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<std::pair<std::uint32_t, const char*>, 4> flag_list{{{flag_scene_points_cut, "scene_points_cut"},
+constexpr std::array<std::pair<std::uint32_t, const char*>, 5> flag_list{{{flag_scene_points_cut, "scene_points_cut"},
                                                                           {flag_hypotheses_cut, "hypotheses_cut"},
                                                                           {flag_instances_cut, "instances_cut"},
-                                                                          {flag_deadline, "deadline"}}};
+                                                                          {flag_deadline, "deadline"},
+                                                                          {flag_voting_cut, "voting_cut"}}};
 
 double wide(float value) { return static_cast<double>(value); }
 

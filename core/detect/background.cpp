@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/detect/parallel_for.hpp"
-
 namespace graspd {
 
 namespace {
@@ -103,12 +101,13 @@ SupportPlane polished(const SupportPlane& plane, std::span<const Vector3> sample
 
 }  // namespace
 
-void remove_background_by_frame(SceneMap& empty_bin, float margin, int threads, SceneMap& map) {
+void remove_background_by_frame(SceneMap& empty_bin, float margin, const Execution& execution, SceneMap& map) {
   for (MapCell& cell : empty_bin.cells) cell.background = cell.point.z();
   for (std::size_t i = 0; i < map.cells.size(); ++i) map.cells[i].background = empty_bin.cells[i].point.z();
   for (int v = 0; v < empty_bin.camera.height; ++v) bridge_line(empty_bin, true, v);
+  if (execution.late()) return;
   for (int u = 0; u < empty_bin.camera.width; ++u) bridge_line(empty_bin, false, u);
-  parallel_for(map.camera.height, threads, 8, [&](int v) {
+  parallel_for(map.camera.height, execution, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       if (!cell.measured()) continue;
@@ -119,7 +118,7 @@ void remove_background_by_frame(SceneMap& empty_bin, float margin, int threads, 
   });
 }
 
-SupportPlane remove_background_by_plane(float margin, float slack, int threads, SceneMap& map) {
+SupportPlane remove_background_by_plane(float margin, float slack, const Execution& execution, SceneMap& map) {
   std::array<Vector3, plane_samples> storage;
   std::size_t count = 0;
   std::size_t measured = 0;
@@ -152,7 +151,7 @@ SupportPlane remove_background_by_plane(float margin, float slack, int threads, 
   if (!best.found) return best;
   for (int round = 0; round < 3; ++round) best = polished(best, samples, margin);
 
-  parallel_for(map.camera.height, threads, 8, [&](int v) {
+  parallel_for(map.camera.height, execution, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       const Vector3 ray = map.camera.point(static_cast<float>(u), static_cast<float>(v), 1.0F);
@@ -164,9 +163,9 @@ SupportPlane remove_background_by_plane(float margin, float slack, int threads, 
   return best;
 }
 
-void remove_background_by_box(const RigidTransform& box_from_camera, const Vector3& half_size, int threads,
-                              SceneMap& map) {
-  parallel_for(map.camera.height, threads, 8, [&](int v) {
+void remove_background_by_box(const RigidTransform& box_from_camera, const Vector3& half_size,
+                              const Execution& execution, SceneMap& map) {
+  parallel_for(map.camera.height, execution, 8, [&](int v) {
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       if (!cell.measured()) continue;

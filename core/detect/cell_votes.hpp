@@ -45,16 +45,23 @@ class TurnVotes {
       }
     }
   }
-  /// Adds the votes of an entry to the row of its reference.
-  void add(PpfEntry entry, std::uint16_t* row) const {
-    const std::uint32_t alpha = entry.alpha();
-    const std::uint16_t* const votes = votes_[alpha % steps_per_bin].data() + alpha / steps_per_bin;
+  /// Adds the votes of an entry to the row of its reference; `rows` is the row of the first.
+  void add(PpfEntry entry, std::uint16_t* rows) const {
+    const std::uint16_t* const votes = votes_.front().data() + places[entry.alpha()];
+    std::uint16_t* const row = rows + std::size_t{entry.reference()} * alpha_bins;
     for (std::size_t k = 0; k < alpha_bins; ++k) row[k] = static_cast<std::uint16_t>(row[k] + votes[k]);
   }
 
  private:
   static constexpr std::uint32_t steps_per_bin = PpfEntry::alpha_steps / alpha_bins;
   static constexpr std::size_t row_length = 2 * alpha_bins;
+  /// For each turn of an entry where its votes begin in `votes_`: looked up, since every instruction of add() counts.
+  static constexpr std::array<std::uint16_t, PpfEntry::alpha_steps> places = [] {
+    std::array<std::uint16_t, PpfEntry::alpha_steps> begins{};
+    for (std::uint32_t alpha = 0; alpha < begins.size(); ++alpha)
+      begins[alpha] = static_cast<std::uint16_t>(alpha % steps_per_bin * row_length + alpha / steps_per_bin);
+    return begins;
+  }();
   alignas(64) std::array<std::array<std::uint16_t, row_length>, steps_per_bin> votes_;
 };
 
@@ -92,7 +99,7 @@ inline void vote_cell(std::span<const PpfEntry> entries, const CellMeeting& meet
   const TurnVotes votes(meeting);
   // Entries of one reference stand together and would wait for each other: four parts of the cell take turns.
   const std::size_t part = entries.size() / 4;
-  const auto add = [&](PpfEntry entry) { votes.add(entry, rows + std::size_t{entry.reference()} * alpha_bins); };
+  const auto add = [&](PpfEntry entry) { votes.add(entry, rows); };
   for (std::size_t i = 0; i < part; ++i) {
     add(entries[i]);
     add(entries[part + i]);

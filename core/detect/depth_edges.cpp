@@ -46,9 +46,10 @@ struct Spread {
 
 }  // namespace
 
-void find_depth_edges(const SceneMap& map, int reach, DepthEdges& edges) {
+void find_depth_edges(const SceneMap& map, int reach, const Execution& execution, DepthEdges& edges) {
   constexpr std::array<std::array<int, 2>, 4> directions{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   for (int v = 0; v < map.camera.height; ++v) {
+    if (execution.late()) return;
     for (int u = 0; u < map.camera.width; ++u) {
       const std::size_t index = map.camera.index(u, v);
       edges.nearest[index] = no_edge;
@@ -61,6 +62,7 @@ void find_depth_edges(const SceneMap& map, int reach, DepthEdges& edges) {
   // Two sweeps, as for a distance transform: each cell hears of the edges of the cells before it.
   Spread spread{map, reach, edges};
   for (int v = 0; v < map.camera.height; ++v) {
+    if (execution.late()) return;
     for (int u = 0; u < map.camera.width; ++u) {
       for (const auto& [du, dv] : {std::array{-1, 0}, std::array{-1, -1}, std::array{0, -1}, std::array{1, -1}})
         spread.from(u, v, du, dv);
@@ -68,6 +70,7 @@ void find_depth_edges(const SceneMap& map, int reach, DepthEdges& edges) {
     for (int u = map.camera.width - 1; u >= 0; --u) spread.from(u, v, 1, 0);
   }
   for (int v = map.camera.height - 1; v >= 0; --v) {
+    if (execution.late()) return;
     for (int u = map.camera.width - 1; u >= 0; --u) {
       for (const auto& [du, dv] : {std::array{1, 0}, std::array{1, 1}, std::array{0, 1}, std::array{-1, 1}})
         spread.from(u, v, du, dv);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/detect/execution.hpp"
 #include "core/detect/scene_map.hpp"
 
 namespace graspd {
@@ -15,7 +16,7 @@ struct DepthEdges {
 inline constexpr std::uint32_t no_edge = 0xFFFFFFFFU;
 
 /// Marks the edges of `map` and spreads them `reach` cells far. A gap in the measurement is looked
-/// across: it is an edge when the scene goes on deeper behind it.
-void find_depth_edges(const SceneMap& map, int reach, DepthEdges& edges);
+/// across: it is an edge when the scene goes on deeper behind it. What was marked once it is late is of no use.
+void find_depth_edges(const SceneMap& map, int reach, const Execution& execution, DepthEdges& edges);
 
 }  // namespace graspd

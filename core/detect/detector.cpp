@@ -80,12 +80,26 @@ Instance judge(const Scene& scene, const Bank& bank, std::uint32_t bank_index, c
   return instance;
 }
 
+constexpr std::uint32_t nobody = 0xFFFFFFFFU;
+
+/// How long the selection among poses that were judged will take, which took `judging_ns`: it renders and judges those
+/// anew that passed the tests, some of them several times, in one thread.
+std::int64_t expected_selection_ns(std::span<const Instance> judged, std::int64_t judging_ns, int threads) {
+  std::int64_t all = 0;
+  std::int64_t asked = 0;
+  for (const Instance& instance : judged) {
+    if (instance.bank == nobody) continue;
+    ++all;
+    asked += instance.rejection == Rejection::none ? 1 : 0;
+  }
+  return all == 0 ? 0 : 3 * asked * threads * judging_ns / (2 * all);
+}
+
 /// Refines the clusters to the end and judges them, those that agree best with the scene first, as long as there is
-/// time: a few at a time, for only what was judged counts.
+/// time: a few at a time, for only what was judged counts, and so that there is time to select from them.
 void judge_clusters(const Scene& scene, const DetectRequest& request, std::uint32_t bank_index,
-                    const DetectParameters& parameters, const Execution& execution, DetectWorkspace& workspace,
+                    const DetectParameters& parameters, Execution execution, DetectWorkspace& workspace,
                     StageClock& clock, Detections& detections) {
-  constexpr std::uint32_t nobody = 0xFFFFFFFFU;
   constexpr std::size_t at_a_time = 16;
   const Bank& bank = request.banks[bank_index];
   const std::size_t first = workspace.judged.size();
@@ -96,6 +110,12 @@ void judge_clusters(const Scene& scene, const DetectRequest& request, std::uint3
   const auto own_image = [&] { return workspace.rendering[static_cast<std::size_t>(omp_get_thread_num())]; };
   for (std::size_t begin = 0; begin < count; begin += at_a_time) {
     const std::size_t some = std::min(at_a_time, count - begin);
+    if (execution.deadline_ns != 0) {
+      execution.deadline_ns =
+          request.deadline_ns - expected_selection_ns(workspace.judged.span(),
+                                                      detections.stage_ns[static_cast<std::size_t>(Stage::verify)],
+                                                      execution.threads);
+    }
     parallel_for(some, execution, 1, [&](std::size_t i) {
       RigidTransform& pose = workspace.clusters[begin + i].camera_from_part;
       pose = refine_finely(scene.map, scene.edges, bank, pose, parameters.refine, own_image());
@@ -108,6 +128,7 @@ void judge_clusters(const Scene& scene, const DetectRequest& request, std::uint3
     });
     clock.end_of(Stage::verify);
   }
+  if (execution.late()) detections.flags |= flag_deadline;
   const Instance* end = std::remove_if(workspace.judged.begin() + first, workspace.judged.end(),
                                        [](const Instance& instance) { return instance.bank == nobody; });
   workspace.judged.truncate(static_cast<std::size_t>(end - workspace.judged.begin()));
@@ -140,7 +161,8 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
   if (scene.measured_pixels == 0 && !execution.late())
     return {StatusCode::bad_frame, "nothing in the frame was measured"};
 
-  for (std::uint32_t b = 0; b < request.banks.size() && !execution.late(); ++b) {
+  const auto out_of_time = [&] { return execution.late() || (detections.flags & flag_deadline) != 0; };
+  for (std::uint32_t b = 0; b < request.banks.size() && !out_of_time(); ++b) {
     const Bank& bank = request.banks[b];
     const float reach = bank.grid.distance_step * static_cast<float>(bank.grid.distance_bins);
     const NeighbourGrid points = sample_for(scene, bank.part->sampling, reach, workspace.preprocess);
@@ -148,7 +170,9 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     if (workspace.preprocess.samples.dropped() > 0) detections.flags |= flag_scene_points_cut;
     clock.end_of(Stage::preprocess);
 
-    detections.work.voting += match(points, bank, parameters.match, execution, workspace.match, workspace.hypotheses);
+    const VotingWork voting = match(points, bank, parameters.match, execution, workspace.match, workspace.hypotheses);
+    detections.work.voting += voting;
+    if (voting.left_out > 0) detections.flags |= flag_voting_cut;
     detections.work.hypotheses += static_cast<std::uint32_t>(workspace.hypotheses.size());
     record(request.trace, b, TracedStage::voted, workspace.hypotheses);
     clock.end_of(Stage::match);
@@ -163,7 +187,7 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     if (execution.late()) break;
     keep_spread(scene.map, bank,
                 {parameters.cluster.plausible, parameters.cluster.plausible_per_place, 100, bank.part->sampling},
-                workspace.select.claimed, workspace.clusters);
+                execution, workspace.select.claimed, workspace.clusters);
     record(request.trace, b, TracedStage::plausible, workspace.clusters);
     clock.end_of(Stage::cluster);
     if (execution.late()) break;
@@ -182,11 +206,14 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     judge_clusters(scene, request, b, parameters, execution, workspace, clock, detections);
   }
   detections.work.judged = static_cast<std::uint32_t>(workspace.judged.size());
-  if (execution.late()) detections.flags |= flag_deadline;
-
+  // A selection that takes longer than expected still may bring the best ones.
+  constexpr std::int64_t overdraft_ns = 2'000'000;
+  Execution selection = execution;
+  if (selection.deadline_ns != 0) selection.deadline_ns += overdraft_ns;
   detections.flags |=
-      select_instances(scene.map, request.banks, parameters.verify, request.minimum_score, workspace.judged.span(),
-                       workspace.select, workspace.accepted, workspace.rejected);
+      select_instances(scene.map, request.banks, parameters.verify, request.minimum_score, selection,
+                       workspace.judged.span(), workspace.select, workspace.accepted, workspace.rejected);
+  if (execution.late()) detections.flags |= flag_deadline;
   clock.end_of(Stage::verify);
   for (const Instance& instance : workspace.rejected)
     ++detections.rejections[static_cast<std::size_t>(instance.rejection)];

@@ -43,7 +43,7 @@ void take_step(const float* centre, std::ptrdiff_t pitch, int reach, float detai
 
 }  // namespace
 
-float measure_edge_blur(const DepthFrame& frame, float detail) {
+float measure_edge_blur(const DepthFrame& frame, float detail, const Execution& execution) {
   constexpr int line_step = 4;
   const Camera& camera = frame.camera;
   BlurSum sum;
@@ -61,8 +61,10 @@ float measure_edge_blur(const DepthFrame& frame, float detail) {
         take_step(line + k * pitch, pitch, reach, detail, focal_length, sum);
     }
   };
-  for (int v = 0; v < camera.height; v += line_step) take_line(0, v, 1, 0, camera.width, camera.fx);
-  for (int u = 0; u < camera.width; u += line_step) take_line(u, 0, 0, 1, camera.height, camera.fy);
+  for (int v = 0; v < camera.height && !execution.late(); v += line_step)
+    take_line(0, v, 1, 0, camera.width, camera.fx);
+  for (int u = 0; u < camera.width && !execution.late(); u += line_step)
+    take_line(u, 0, 0, 1, camera.height, camera.fy);
   return sum.steps < fewest_steps ? 0.0F : static_cast<float>(sum.width / sum.steps);
 }
 

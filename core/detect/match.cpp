@@ -13,6 +13,51 @@ namespace {
 
 constexpr std::size_t most_peaks = 16;
 
+/// The references of a scene, dealt into classes that each cover it evenly: every so many references one belongs to the
+/// same class.
+class ReferenceClasses {
+ public:
+  static constexpr std::size_t count = 64;
+
+  explicit ReferenceClasses(std::size_t references) : references_(references) {
+    // The bits of the number in reverse: any first few classes lie about as far apart as they can.
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t bit = 1; bit < count; bit *= 2) order_[k] = 2 * order_[k] + ((k & bit) != 0 ? 1 : 0);
+    }
+  }
+  /// How many references the first `some` classes hold.
+  [[nodiscard]] std::size_t size(std::size_t some) const {
+    const std::size_t partial = references_ % count;
+    const auto last = order_.begin() + static_cast<std::ptrdiff_t>(some);
+    return references_ / count * some +
+           static_cast<std::size_t>(std::count_if(order_.begin(), last, [&](std::size_t c) { return c < partial; }));
+  }
+  /// Calls visit(reference) for every reference of the classes [first, first + some), in parallel.
+  template <class Visit>
+  void for_each(std::size_t first, std::size_t some, const Execution& execution, const Visit& visit) const {
+    std::array<std::size_t, count> classes{};
+    std::copy_n(order_.begin() + static_cast<std::ptrdiff_t>(first), some, classes.begin());
+    std::sort(classes.begin(), classes.begin() + static_cast<std::ptrdiff_t>(some));
+    const std::size_t groups = (references_ + count - 1) / count;
+    parallel_for(groups * some, execution, 4, [&](std::size_t i) {
+      const std::size_t reference = i / some * count + classes[i % some];
+      if (reference < references_) visit(reference);
+    });
+  }
+
+ private:
+  std::size_t references_;
+  std::array<std::size_t, count> order_{};
+};
+
+/// How many more classes the budget allows, when `done` of them took `work`.
+std::size_t affordable(const VotingWork& work, std::size_t done, int millions) {
+  const std::uint64_t each = std::max<std::uint64_t>(1, work.effort / done);
+  const std::uint64_t budget = static_cast<std::uint64_t>(std::max(0, millions)) * 1'000'000U;
+  const std::uint64_t left = budget - std::min(budget, work.effort);
+  return std::min<std::uint64_t>(left / each, ReferenceClasses::count - done);
+}
+
 }  // namespace
 
 MatchWorkspace carve_match_workspace(Arena& arena, const DetectCapacity& capacity) {
@@ -40,7 +85,7 @@ VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParame
   const std::size_t references = (scene.points.size() + step - 1) / step;
 
   std::fill_n(workspace.slots_used.begin(), references, std::uint8_t{0});
-  parallel_for(references, execution, 8, [&](std::size_t i) {
+  const auto vote_from = [&](std::size_t i) {
     VotingScratch& scratch = workspace.threads[static_cast<std::size_t>(omp_get_thread_num())];
     const OrientedPoint& reference = scene.points[i * step];
     vote(scene, bank, reference, scratch);
@@ -53,13 +98,24 @@ VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParame
           pose_from_alpha(reference, model_reference(bank, r), peak_alpha(peaks[k], scratch)), peaks[k].votes,
           bank.reference_views[r]};
     }
-  });
+  };
+  VotingWork work;
+  const ReferenceClasses classes(references);
+  std::size_t done = 0;
+  // First as few references as tell what all would cost; then as many again, as long as the budget lasts.
+  while (done < ReferenceClasses::count && !execution.late()) {
+    const std::size_t some = done == 0 ? 1 : std::min(done, affordable(work, done, parameters.budget));
+    if (some == 0) break;
+    classes.for_each(done, some, execution, vote_from);
+    done += some;
+    work = {};
+    for (const VotingScratch& scratch : workspace.threads) work += scratch.work;
+  }
+  if (done < ReferenceClasses::count) work.left_out = static_cast<std::uint32_t>(references - classes.size(done));
   for (std::size_t i = 0; i < references; ++i) {
     for (std::size_t k = 0; k < workspace.slots_used[i]; ++k)
       hypotheses.push_back(workspace.slots[i * per_reference + k]);
   }
-  VotingWork work;
-  for (const VotingScratch& scratch : workspace.threads) work += scratch.work;
   return work;
 }
 

@@ -31,7 +31,8 @@ struct MatchWorkspace {
 
 /// Votes for poses of the bank's part, all views, around every reference point of the scene (Drost et
 /// al. 2010, over views as in paper 2.4; pairs that repeat a vote are skipped, Hinterstoisser et al.
-/// 2016). Several peaks are kept for each reference point. Returns what it took.
+/// 2016). Several peaks are kept for each reference point. When all of them would take more than the budget, fewer
+/// vote, evenly over the scene. Returns what it took.
 VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParameters& parameters,
                  const Execution& execution, MatchWorkspace& workspace, FixedVector<Hypothesis>& hypotheses);
 

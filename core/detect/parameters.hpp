@@ -33,6 +33,7 @@ struct MatchParameters {
   int reference_step = 3;           ///< Every so many scene points one is a reference point.
   int peaks_per_reference = 6;      ///< Poses kept for a reference, over all views.
   float minimum_peak_share = 0.5F;  ///< A peak counts when it has this share of the votes of the best one.
+  int budget = 1000;                ///< VotingWork::effort of one part, in millions.
 };
 
 /// Clustering (paper 3.2: 15 degrees, 3 voxels) and the choice of what is refined.

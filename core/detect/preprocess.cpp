@@ -54,40 +54,41 @@ PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacit
 
 Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float detail,
                  const PreprocessParameters& parameters, const Execution& execution, PreprocessWorkspace& workspace) {
-  const int threads = execution.threads;
   Scene scene;
   const int stride = stride_for(frame, detail, parameters.cells_per_detail, workspace.map_cells.size());
   scene.map = make_scene_map(frame.camera, stride, workspace.map_cells);
   bin_frame(frame, execution, scene.map);
   if (execution.late()) return scene;
-  scene.map.edge_blur = measure_edge_blur(frame, detail);
+  scene.map.edge_blur = measure_edge_blur(frame, detail, execution);
+  if (execution.late()) return scene;
 
   const bool by_frame = parameters.background == BackgroundMode::automatic && !empty_bin.depth.empty();
   if (by_frame) {
     SceneMap empty_map = make_scene_map(empty_bin.camera, stride, workspace.empty_cells);
     bin_frame(empty_bin, execution, empty_map);
     if (execution.late()) return scene;
-    remove_background_by_frame(empty_map, parameters.background_margin, threads, scene.map);
+    remove_background_by_frame(empty_map, parameters.background_margin, execution, scene.map);
   } else if (parameters.background == BackgroundMode::automatic || parameters.background == BackgroundMode::plane) {
     scene.plane =
-        remove_background_by_plane(parameters.background_margin, parameters.plane_slack * detail, threads, scene.map);
+        remove_background_by_plane(parameters.background_margin, parameters.plane_slack * detail, execution, scene.map);
   } else if (parameters.background == BackgroundMode::box) {
-    remove_background_by_box(parameters.box_from_camera, parameters.box_half_size, threads, scene.map);
+    remove_background_by_box(parameters.box_from_camera, parameters.box_half_size, execution, scene.map);
   }
   if (parameters.has_region) {
-    remove_background_by_box(parameters.region_from_camera, parameters.region_half_size, threads, scene.map);
+    remove_background_by_box(parameters.region_from_camera, parameters.region_half_size, execution, scene.map);
   }
   if (execution.late()) return scene;
   if (parameters.segmentation) {
     const auto cells = static_cast<std::uint32_t>(2.0F * parameters.cells_per_detail * parameters.cells_per_detail);
     (void)segment_foreground(cells, workspace.segments, scene.map);
+    if (execution.late()) return scene;
   }
   const int radius = std::clamp(static_cast<int>(std::lround(0.5F * parameters.cells_per_detail)), 1, 4);
   fit_normals(radius, execution, scene.map);
   if (execution.late()) return scene;
 
   scene.edges = {workspace.edges.nearest.first(scene.map.cells.size())};
-  find_depth_edges(scene.map, static_cast<int>(2.0F * parameters.cells_per_detail), scene.edges);
+  find_depth_edges(scene.map, static_cast<int>(2.0F * parameters.cells_per_detail), execution, scene.edges);
 
   for (const float depth : frame.depth) scene.measured_pixels += depth > 0.0F ? 1 : 0;
   for (const MapCell& cell : scene.map.cells) scene.foreground_cells += cell.foreground != 0 ? 1 : 0;

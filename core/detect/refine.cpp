@@ -164,11 +164,13 @@ void refine_closely(const SceneMap& map, const DepthEdges& edges, const Bank& ba
   });
 }
 
-void keep_distinct(const Bank& bank, const RefineParameters& parameters, FixedVector<PoseCluster>& clusters) {
+void keep_distinct(const Bank& bank, const RefineParameters& parameters, const Execution& execution,
+                   FixedVector<PoseCluster>& clusters) {
   const Symmetry symmetry = bank.symmetry();
   const float reach = parameters.same_translation * bank.part->detail;
   std::size_t kept = 0;
   for (std::size_t k = 0; k < clusters.size(); ++k) {
+    if (k % 64 == 0 && execution.late()) break;
     const Vector3 centre = clusters[k].camera_from_part * bank.part->centre;
     bool met = false;
     for (std::size_t other = 0; other < kept && !met; ++other) {

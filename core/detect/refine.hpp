@@ -36,8 +36,9 @@ void refine_coarsely(const SceneMap& map, const DepthEdges& edges, const Bank& b
 void refine_closely(const SceneMap& map, const DepthEdges& edges, const Bank& bank, const RefineParameters& parameters,
                     const Execution& execution, std::span<PoseCluster> clusters);
 
-/// Makes one of the clusters that have met, best first.
-void keep_distinct(const Bank& bank, const RefineParameters& parameters, FixedVector<PoseCluster>& clusters);
+/// Makes one of the clusters that have met, best first. Once it is late no more are kept.
+void keep_distinct(const Bank& bank, const RefineParameters& parameters, const Execution& execution,
+                   FixedVector<PoseCluster>& clusters);
 
 /// The last iterations for a pose that was refined coarsely, with the contour that it shows to the sensor:
 /// it is rendered into `image`, anew each round.

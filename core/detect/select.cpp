@@ -208,8 +208,9 @@ SelectWorkspace carve_select_workspace(Arena& arena, const DetectCapacity& capac
 }
 
 std::uint32_t select_instances(const SceneMap& map, std::span<const Bank> banks, const VerifyParameters& parameters,
-                               float minimum_score, std::span<Instance> judged, SelectWorkspace& workspace,
-                               FixedVector<Instance>& accepted, FixedVector<Instance>& rejected) {
+                               float minimum_score, const Execution& execution, std::span<Instance> judged,
+                               SelectWorkspace& workspace, FixedVector<Instance>& accepted,
+                               FixedVector<Instance>& rejected) {
   const Selection selection{map, banks, parameters, minimum_score};
   std::uint32_t flags = 0;
   workspace.rooms.clear();
@@ -217,13 +218,14 @@ std::uint32_t select_instances(const SceneMap& map, std::span<const Bank> banks,
   std::fill_n(workspace.claimed.begin(), map.cells.size(), std::uint16_t{0});
   std::span<std::uint32_t> order = workspace.order.first(judged.size());
   std::iota(order.begin(), order.end(), 0U);
-  for (int round = 0; round < most_rounds && !order.empty(); ++round) {
+  for (int round = 0; round < most_rounds && !order.empty() && !execution.late(); ++round) {
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
       return judged[a].score != judged[b].score ? surer(judged[a], judged[b]) : a < b;
     });
     const std::size_t accepted_before = accepted.size();
     std::size_t left = 0;
     for (const std::uint32_t j : order) {
+      if (execution.late()) break;
       Instance& instance = judged[j];
       instance.score = score_of(instance.evidence, in_company(instance, accepted));
       // The first round takes what holds by itself; later ones ask again, since neighbours that were taken

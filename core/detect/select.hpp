@@ -5,6 +5,7 @@
 
 #include "core/bank/bank.hpp"
 #include "core/detect/detections.hpp"
+#include "core/detect/execution.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/detect/verify.hpp"
 #include "core/memory/arena.hpp"
@@ -41,10 +42,12 @@ struct SelectWorkspace {
 /// is asked again once that neighbour was accepted. Once an instance of a part is sure, others of that part are
 /// likelier. An instance whose surface another pose explains as well is rejected as ambiguous. Leaves `accepted` in the
 /// order of their scores. `judged` hold evidence and score, and a reason when they failed a test; they are changed.
-/// `minimum_score` overrides the banks' when not negative. Returns flags of DetectionFlag.
+/// `minimum_score` overrides the banks' when not negative. Once it is late, nothing more is accepted; what was not
+/// asked by then is left out. Returns flags of DetectionFlag.
 [[nodiscard]] std::uint32_t select_instances(const SceneMap& map, std::span<const Bank> banks,
                                              const VerifyParameters& parameters, float minimum_score,
-                                             std::span<Instance> judged, SelectWorkspace& workspace,
-                                             FixedVector<Instance>& accepted, FixedVector<Instance>& rejected);
+                                             const Execution& execution, std::span<Instance> judged,
+                                             SelectWorkspace& workspace, FixedVector<Instance>& accepted,
+                                             FixedVector<Instance>& rejected);
 
 }  // namespace graspd

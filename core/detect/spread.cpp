@@ -14,8 +14,8 @@ constexpr int cells_per_place = 4;
 
 }  // namespace
 
-void keep_spread(const SceneMap& map, const Bank& bank, const SpreadLimits& limits, std::span<std::uint16_t> counts,
-                 FixedVector<PoseCluster>& clusters) {
+void keep_spread(const SceneMap& map, const Bank& bank, const SpreadLimits& limits, const Execution& execution,
+                 std::span<std::uint16_t> counts, FixedVector<PoseCluster>& clusters) {
   const int places_per_row = map.camera.width / cells_per_place + 1;
   const int rows = map.camera.height / cells_per_place + 1;
   std::fill_n(counts.begin(), static_cast<std::size_t>(places_per_row) * static_cast<std::size_t>(rows),
@@ -23,6 +23,7 @@ void keep_spread(const SceneMap& map, const Bank& bank, const SpreadLimits& limi
   std::array<std::uint32_t, most_places> places;
   std::size_t kept = 0;
   for (std::size_t k = 0; k < clusters.size() && kept < static_cast<std::size_t>(limits.count); ++k) {
+    if (k % 64 == 0 && execution.late()) break;
     std::size_t explained = 0;
     std::size_t open = 0;
     for_each_confirmed(map, bank, clusters[k].camera_from_part, limits.points, limits.tolerance, [&](std::size_t cell) {

@@ -26,6 +26,11 @@ inline std::size_t meet_cells(const PairBatch& batch, std::size_t met, VotingScr
   return met;
 }
 
+/// What takes how long, in votes that are cast one by one: an entry adds those of any number of turns at once,
+constexpr std::uint32_t turns_at_once = 3;
+constexpr std::uint64_t effort_of_pair = 32;  ///< a pair needs its feature,
+constexpr std::uint64_t effort_of_row = 8;    ///< and every reference of the model is cleared and looked through.
+
 inline void vote_meetings(const Bank& bank, std::size_t met, VotingScratch& scratch) {
   for (std::size_t m = 0; m < met; ++m) {
     const CellMeeting& meeting = scratch.meetings[m];
@@ -35,6 +40,7 @@ inline void vote_meetings(const Bank& bank, std::size_t met, VotingScratch& scra
     const std::uint32_t turns = count_turns(meeting);
     scratch.work.cells += turns;
     scratch.work.votes += turns * entries.size();
+    scratch.work.effort += std::min(turns, turns_at_once) * entries.size();
     vote_cell(entries, meeting, turns, scratch.row(0));
   }
 }
@@ -69,6 +75,7 @@ inline void vote(const NeighbourGrid& scene, const Bank& bank, const OrientedPoi
     find_cells(scene.columns, reference, bank.grid, batch);
     met = meet_cells(batch, met, scratch);
     scratch.work.pairs += batch.count;
+    scratch.work.effort += effort_of_pair * batch.count;
     batch.count = 0;
   };
   scene.for_each_run(reference.position, reach, [&](std::uint32_t first, std::uint32_t last) {
@@ -82,6 +89,7 @@ inline void vote(const NeighbourGrid& scene, const Bank& bank, const OrientedPoi
   end_batch();
   vote_meetings(bank, met, scratch);
   find_best_votes(references, scratch);
+  scratch.work.effort += effort_of_row * references;
 }
 
 // One function for each instruction set, into which everything above is inlined.

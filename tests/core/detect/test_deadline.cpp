@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <vector>
 
+#include "core/detect/select.hpp"
 #include "tests/core/detect/bracket_scene.hpp"
 
 namespace graspd {
@@ -55,6 +57,29 @@ TEST_F(Deadline, EndsThePreparationOfTheSceneToo) {
     EXPECT_TRUE(detections.instances.empty());
     EXPECT_EQ(detections.scene_points, 0U) << "voting began after " << deadline << " of " << whole << " readings";
   }
+}
+
+TEST_F(Deadline, EndsTheSelectionToo) {
+  const std::size_t found = detect_until(0).instances.size();
+  DetectWorkspace& workspace = memory_.workspace;
+  const Scene scene = preprocess(bin_.frame(), {}, maker_.bank().part->detail, {}, {}, workspace.preprocess);
+  const std::vector<Instance> judged(workspace.judged.begin(), workspace.judged.end());
+  const auto select_until = [&](std::int64_t deadline) {
+    readings = 0;
+    std::vector<Instance> candidates = judged;
+    for (Instance& candidate : candidates) candidate.rejection = Rejection::none;
+    workspace.accepted.clear();
+    workspace.rejected.clear();
+    (void)select_instances(scene.map, request_.banks, {}, -1.0F, {1, read_clock, deadline}, candidates,
+                           workspace.select, workspace.accepted, workspace.rejected);
+    return workspace.accepted.size();
+  };
+  EXPECT_EQ(select_until(0), found);
+  EXPECT_EQ(select_until(1), 0U);
+  // The clock is read before each candidate; the best ones come first.
+  const std::size_t some = select_until(4);
+  EXPECT_GT(some, 0U);
+  EXPECT_LT(some, found);
 }
 
 TEST_F(Deadline, LeavesWhatWasVerifiedByThen) {
