@@ -40,6 +40,7 @@ struct Evidence {
   float inside = 1;     ///< Share of the surface that falls inside the image.
   float boundary = 0;   ///< Share of the model that stands where the scene shows free space.
   float edge = 0;       ///< Share of the decided outline that agrees with the scene.
+  float decided = 0;    ///< Length of the outline on which the scene says anything, in units.
   float outline = 0;    ///< Length of the outline, in units.
   float lock = 0;       ///< How firmly the confirmed normals hold the pose: 0 for a plane or a cylinder, at most 1.
   float blur = 0;       ///< How far the sensor smears depth steps: 0 sharp, 1 nearly a detail and more.

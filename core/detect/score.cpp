@@ -8,8 +8,9 @@ namespace graspd {
 
 namespace {
 
-/// How much the outline counts: all on a surface that could slide along itself, which fits wherever there is more of
-/// it, and little on a shape that only fits itself. A sensor that smears depth steps lets neighbours grow together.
+/// How much of the outline must agree: the usual share of it on a surface that could slide along itself, which fits
+/// wherever there is more of it, and less on a shape that only fits itself. A sensor that smears depth steps lets
+/// neighbours grow together.
 float outline_weight(const Evidence& evidence) {
   constexpr float sliding = 0.02F;
   constexpr float locked = 0.15F;
@@ -21,20 +22,25 @@ float outline_weight(const Evidence& evidence) {
 
 float log_odds_of(const Evidence& evidence, bool in_company) {
   if (evidence.confirmed == 0.0F) return -std::numeric_limits<float>::infinity();
-  // A logistic regression over the best hypotheses at each place, right or wrong by MSSD, in simulated bins of two
-  // dozen parts before sharp and blurred sensors, in bins that hold none of the parts that were looked for, and in
-  // piles of boxes, bottles, rods, tubes, profiles and other shapes that are no part of anyone's. The constant is
-  // lower by 1.2 than the regression's: a pose that is not there is worse than one that is not reported.
+  // A logistic regression over the best hypotheses at each place, right or wrong by MSSD, in the simulated bins of
+  // tests/benchmarks/score_evidence: of two dozen parts, before sharp and smearing sensors, with and without a known
+  // bin, cut off by the frame, and of other parts and everyday things. The constant is higher by half than the
+  // regression's: bins hold the parts that are looked for more often than these did.
   const auto log_odds = [](float share) { return std::log((share + 0.02F) / (1.02F - share)); };
-  // The outline of a right pose agrees in nine of ten places; what is above says nothing.
-  const float outline = outline_weight(evidence) * std::min(0.0F, log_odds(evidence.edge) - log_odds(0.9F));
+  // Lengths, not their ratio: an outline of which next to nothing could be seen says next to nothing. A sensor that
+  // smears depth steps lets neighbours grow together, but fills gaps in too, so that it shows more of the outline.
+  const float blur = evidence.blur;
+  const float consistent = evidence.edge * evidence.decided;
+  const float inconsistent = evidence.decided - consistent;
+  const float outline = (0.29F + 0.85F * blur) * std::log1p(consistent) -
+                        (1.42F - 0.98F * blur) * std::log1p(inconsistent) - 3.79F * blur;
   // Only as far as the surface could not lie elsewhere does its size speak for a pose.
   const float locked_surface = std::min(evidence.lock, 0.3F) * std::log1p(evidence.confirmed);
   // Where the surface could slide it fits closely, or is another one.
   const float sliding_misfit = evidence.misfit * std::exp(-evidence.lock / 0.05F);
-  return -11.5F + 1.54F * log_odds(evidence.visible) - 0.75F * log_odds(evidence.measured) + 3.13F * outline -
-         9.4F * evidence.misfit - 8.93F * sliding_misfit - 1.3F * std::log1p(evidence.gap) +
-         2.94F * std::log1p(evidence.outline) + 3.8F * locked_surface + (in_company ? 2.4F : 0.0F);
+  return -7.9F + 1.03F * log_odds(evidence.visible) - 0.56F * log_odds(evidence.measured) - 5.08F * evidence.misfit -
+         6.41F * sliding_misfit - (1.58F - 1.24F * blur) * std::log1p(evidence.gap) +
+         2.01F * std::log1p(evidence.outline) + 1.77F * locked_surface + outline + (in_company ? 1.43F : 0.0F);
 }
 
 float score_of(const Evidence& evidence, bool in_company) {

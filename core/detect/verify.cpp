@@ -83,13 +83,33 @@ struct OutlineCount {
   int inconsistent = 0;
 };
 
+/// The confirmed cell nearest to the rim at (u, v), inwards from direction (du, dv): sensors round rims off, or do not
+/// measure them. Null when there is none within a few cells.
+const MapCell* confirmed_inside(const SceneMap& map, const RenderedModel& model, std::span<const std::uint16_t> claimed,
+                                int u, int v, int du, int dv, float tolerance) {
+  constexpr int deepest = 3;
+  for (int k = 0; k <= deepest; ++k) {
+    const int x = u - k * du;
+    const int y = v - k * dv;
+    if (!rendered_at(model, x, y)) return nullptr;
+    const int map_u = model.rectangle.left + x;
+    const int map_v = model.rectangle.top + y;
+    const MapCell& cell = map.at(map_u, map_v);
+    if (!is_claimed(map, claimed, map_u, map_v) &&
+        judge(cell, model, x, y, tolerance).verdict == CellVerdict::confirmed)
+      return &cell;
+  }
+  return nullptr;
+}
+
 /// Looks beyond the rim at (u, v) in direction (du, dv): a surface that goes on there, as the extension
 /// of the one inside, contradicts the rim. Sensors round edges off, so the majority of a few cells decides.
 void judge_rim(const SceneMap& map, const RenderedModel& model, std::span<const std::uint16_t> claimed, int u, int v,
                int du, int dv, float tolerance, OutlineCount& count) {
   constexpr int first = 2;
   constexpr int last = 6;
-  const MapCell& inside = map.at(model.rectangle.left + u, model.rectangle.top + v);
+  const MapCell* inside = confirmed_inside(map, model, claimed, u, v, du, dv, tolerance);
+  if (inside == nullptr) return;
   const float front = model.front[model.camera.index(u, v)];
   int seen = 0;
   int going_on = 0;
@@ -106,9 +126,9 @@ void judge_rim(const SceneMap& map, const RenderedModel& model, std::span<const 
     // What stands in front hides whether the surface ends.
     if (beyond.point.z() - front < -4.0F * tolerance) break;
     ++seen;
-    if (beyond.foreground == 0 || !inside.has_normal()) continue;
-    const bool on_plane = std::abs(inside.normal.dot(beyond.point - inside.point)) < tolerance;
-    going_on += on_plane && (!beyond.has_normal() || inside.normal.dot(beyond.normal) > 0.85F) ? 1 : 0;
+    if (beyond.foreground == 0 || !inside->has_normal()) continue;
+    const bool on_plane = std::abs(inside->normal.dot(beyond.point - inside->point)) < tolerance;
+    going_on += on_plane && (!beyond.has_normal() || inside->normal.dot(beyond.normal) > 0.85F) ? 1 : 0;
   }
   if (seen > 0) ++(2 * going_on > seen ? count.inconsistent : count.consistent);
 }
@@ -195,6 +215,7 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   float below = 0;
   float squares = 0;
   float gap = 0;
+  const bool edges_judge = parameters.edges && bank.part->edges_judge != 0;
   OutlineCount outline;
   Matrix3 normals = Matrix3::Zero();
   float normal_count = 0;
@@ -217,6 +238,11 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
       const int sides = open_sides(model, u, v);
       const bool rim = sides > 0;
       outline.length += sides;
+      if (rim && edges_judge) {
+        for (const auto& [du, dv] : directions) {
+          if (!rendered_at(model, u + du, v + dv)) judge_rim(map, model, claimed, u, v, du, dv, tolerance, outline);
+        }
+      }
       Verdict verdict = judge(cell, model, u, v, tolerance);
       // What a better instance explains hides this one, unless this one would stand before it.
       if (is_claimed(map, claimed, map_u, map_v) && verdict.verdict != CellVerdict::behind)
@@ -231,10 +257,6 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
       if (cell.has_normal()) {
         normals += cell.normal * cell.normal.transpose();
         normal_count += 1.0F;
-      }
-      if (!rim) continue;
-      for (const auto& [du, dv] : directions) {
-        if (!rendered_at(model, u + du, v + dv)) judge_rim(map, model, claimed, u, v, du, dv, tolerance, outline);
       }
     }
   }
@@ -260,8 +282,15 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   evidence.blur = blur_of(map, bank.part->detail);
   evidence.outline = static_cast<float>(outline.length) / unit_cells;
   evidence.lock = normal_count > 0.0F ? lock_of(normals / normal_count) : 0.0F;
-  const int decided = parameters.edges && bank.part->edges_judge != 0 ? outline.consistent + outline.inconsistent : 0;
-  evidence.edge = decided > 0 ? static_cast<float>(outline.consistent) / static_cast<float>(decided) : 1.0F;
+  if (edges_judge) {
+    const int decided = outline.consistent + outline.inconsistent;
+    evidence.decided = static_cast<float>(decided) / unit_cells;
+    evidence.edge = decided > 0 ? static_cast<float>(outline.consistent) / static_cast<float>(decided) : 1.0F;
+  } else {
+    // What sensors show of most right poses stands in for what nobody asks.
+    evidence.decided = (0.06F + 0.07F * evidence.blur) * evidence.outline;
+    evidence.edge = 1.0F;
+  }
   return evidence;
 }
 

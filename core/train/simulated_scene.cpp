@@ -16,20 +16,26 @@ constexpr float pixels_along_part = 150.0F;
 constexpr float baseline_share = 0.22F;  ///< Of the distance to the bin.
 constexpr float most_tilt = 0.18F;       ///< Radians off the vertical.
 
-/// A floor and four walls; z upwards, the floor at 0.
-Mesh bin_mesh(const PileBin& bin, float wall) {
+/// A floor, four walls and, when they are thick, the ledge on top of them; z upwards, the floor at 0.
+Mesh bin_mesh(const PileBin& bin, float wall, float rim) {
   Mesh mesh;
-  const float x = bin.half_width;
-  const float y = bin.half_length;
-  for (const float z : {0.0F, wall}) {
+  const auto add_corners = [&](float wider, float z) {
+    const float x = bin.half_width + wider;
+    const float y = bin.half_length + wider;
     mesh.vertices.insert(mesh.vertices.end(),
                          {Vector3(-x, -y, z), Vector3(x, -y, z), Vector3(x, y, z), Vector3(-x, y, z)});
-  }
+  };
+  add_corners(0.0F, 0.0F);
+  add_corners(0.0F, wall);
+  if (rim > 0.0F) add_corners(rim, wall);
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    const std::uint32_t next = (i + 1) % 4;
-    mesh.triangles.push_back({i, i + 4, next});
-    mesh.triangles.push_back({next, i + 4, next + 4});
+  for (std::uint32_t ring = 4; ring < mesh.vertices.size(); ring += 4) {
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t inner = ring - 4 + i;
+      const std::uint32_t next = ring - 4 + (i + 1) % 4;
+      mesh.triangles.push_back({inner, inner + 4, next});
+      mesh.triangles.push_back({next, inner + 4, next + 4});
+    }
   }
   return mesh;
 }
@@ -116,7 +122,7 @@ SimulatedScene simulate_scene(std::span<const SimulatedPart> parts, const SceneR
   Chance shared(mixed(recipe.setting_seed.value_or(0)));
   Chance& setting = recipe.setting_seed ? shared : chance;
   const RigidTransform camera_from_bin = camera_above(recipe, setting);
-  const Mesh walls = bin_mesh(bin, 0.5F * shapes.front().diameter);
+  const Mesh walls = bin_mesh(bin, 0.5F * shapes.front().diameter, recipe.rim);
 
   SimulatedScene scene;
   scene.camera = fitting_camera(parts, recipe, bin);

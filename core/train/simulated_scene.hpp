@@ -28,6 +28,7 @@ struct SceneRecipe {
   int maximum_width = 1280;       ///< Pixels; the pitch grows where the bin would not fit in.
   int maximum_height = 960;
   float layers = 1.5F;  ///< How deep the parts lie, on average.
+  float rim = 0.0F;     ///< How thick the bin's walls are (metres): so broad is the ledge on top of them.
   std::uint64_t seed = 1;
   /// Where the sensor stands, and the frame of the empty bin: for several scenes that one sensor sees. Else by `seed`.
   std::optional<std::uint64_t> setting_seed;

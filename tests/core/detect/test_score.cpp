@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/detect/score.hpp"
 
 namespace graspd {
@@ -13,6 +15,7 @@ Evidence good_evidence() {
   evidence.purity = 0.97F;
   evidence.measured = 0.75F;
   evidence.edge = 0.95F;
+  evidence.decided = 10.0F;
   evidence.outline = 80.0F;
   evidence.lock = 0.1F;
   evidence.misfit = 0.3F;
@@ -63,28 +66,33 @@ TEST(Score, FallsWithWhatSpeaksAgainstIt) {
   EXPECT_LT(score_of(worse, false), score);
 }
 
-TEST(Score, OutlineDecidesWhereTheSurfaceCouldSlide) {
-  const auto loss = [](float lock) {
-    Evidence evidence = doubtful_evidence();
-    evidence.lock = lock;
-    const float whole = score_of(evidence, false);
-    evidence.edge = 0.5F;
-    return whole / score_of(evidence, false);
-  };
-  EXPECT_GT(loss(0.0F), 3.0F * loss(0.3F));
+/// How many times likelier a pose is when all of its outline agrees than when half of it does.
+float odds_by_outline(Evidence evidence) {
+  evidence.edge = 1.0F;
+  const float whole = log_odds_of(evidence, false);
+  evidence.edge = 0.5F;
+  return std::exp(whole - log_odds_of(evidence, false));
+}
+
+TEST(Score, AnOutlineOfWhichLittleIsSeenSaysLittle) {
+  Evidence evidence = good_evidence();
+  evidence.decided = 0.5F;
+  const float little = odds_by_outline(evidence);
+  evidence.decided = 20.0F;
+  EXPECT_LT(little, 2.0F);
+  EXPECT_GT(odds_by_outline(evidence), 10.0F * little);
 }
 
 TEST(Score, OutlineCountsLessWhereTheSensorSmearsIt) {
-  Evidence evidence = doubtful_evidence();
-  evidence.edge = 0.5F;
-  const float sharp = score_of(evidence, true);
+  Evidence evidence = good_evidence();
+  const float sharp = odds_by_outline(evidence);
   evidence.blur = 1.0F;
-  EXPECT_GT(score_of(evidence, true), 2.0F * sharp);
+  EXPECT_GT(sharp, 2.0F * odds_by_outline(evidence));
 }
 
 TEST(Score, CompanyOfASureInstanceMakesAnotherLikelier) {
   const Evidence evidence = doubtful_evidence();
-  EXPECT_GT(score_of(evidence, true), 5.0F * score_of(evidence, false));
+  EXPECT_GT(score_of(evidence, true), 2.0F * score_of(evidence, false));
 }
 
 TEST(Score, OfTwoPosesThatExplainTheSameNeitherIsSure) {

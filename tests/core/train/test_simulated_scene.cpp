@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/geometry/depth_render.hpp"
 #include "core/train/simulated_scene.hpp"
 #include "tests/core/train/shapes.hpp"
@@ -127,6 +129,20 @@ TEST(SimulatedScene, TheEmptyBinIsTheSameBin) {
   }
   EXPECT_GT(nearer, 1000U);
   EXPECT_LT(further, nearer / 50);
+}
+
+TEST(SimulatedScene, ThickWallsShowALedge) {
+  const auto parts = brackets();
+  SceneRecipe recipe = small_recipe();
+  const auto measured_above_floor = [&] {
+    const SimulatedScene scene = simulate_scene(parts, recipe);
+    const float wall_top = recipe.sensor_distance - 0.4F * parts[0].shape.diameter;
+    return std::count_if(scene.empty_depth.begin(), scene.empty_depth.end(),
+                         [&](float z) { return z > 0.0F && z < wall_top; });
+  };
+  const auto thin = measured_above_floor();
+  recipe.rim = 0.01F;
+  EXPECT_GT(measured_above_floor(), thin + 500);
 }
 
 }  // namespace
