@@ -27,6 +27,12 @@ namespace graspd {
   return static_cast<std::uint32_t>(count);
 }
 
+/// Where the row of an entry's reference begins, from the row of the first.
+[[nodiscard]] inline std::uint32_t first_bin(PpfEntry entry) {
+  static_assert(PpfEntry::alpha_steps == 8 * alpha_bins);
+  return entry.packed >> 3U & ~(alpha_bins - 1U);
+}
+
 /// For every turn of an entry, what the turns that met its cell add to the bins of its reference. Half a bin is added
 /// to differences of turns so that their 256 steps round to the nearest of the bins.
 class TurnVotes {
@@ -48,7 +54,7 @@ class TurnVotes {
   /// Adds the votes of an entry to the row of its reference; `rows` is the row of the first.
   void add(PpfEntry entry, std::uint16_t* rows) const {
     const std::uint16_t* const votes = votes_.front().data() + places[entry.alpha()];
-    std::uint16_t* const row = rows + std::size_t{entry.reference()} * alpha_bins;
+    std::uint16_t* const row = rows + first_bin(entry);
     for (std::size_t k = 0; k < alpha_bins; ++k) row[k] = static_cast<std::uint16_t>(row[k] + votes[k]);
   }
 
@@ -68,9 +74,7 @@ class TurnVotes {
 /// Adds the votes of one turn for all `entries` to the rows of their references, of which `rows` is the first.
 inline void vote_turn(std::span<const PpfEntry> entries, std::uint32_t alpha, std::uint16_t* rows) {
   const std::uint32_t rounded = alpha + 4U;
-  const auto place_of = [&](PpfEntry entry) {
-    return (entry.packed >> 3U & ~31U) | ((rounded - entry.packed) & 0xFFU) >> 3U;
-  };
+  const auto place_of = [&](PpfEntry entry) { return first_bin(entry) | ((rounded - entry.packed) & 0xFFU) >> 3U; };
   constexpr std::size_t block = 32;
   std::array<std::uint32_t, block> places;
   std::size_t done = 0;

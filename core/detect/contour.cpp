@@ -33,6 +33,7 @@ Eigen::Vector2f outward(const SceneMap& map, const RenderedModel& model, int u, 
 }
 
 constexpr int block = 64;
+constexpr std::size_t most_kept = 2048;
 
 /// Marks those cells of row `v` from `first` on at which the surface may end: a neighbour beyond the rectangle, or not
 /// covered, or a step behind. Most cells are inside, and found to be so many at once.
@@ -81,20 +82,34 @@ void for_each_contour_cell(const SceneMap& map, const RenderedModel& model, Visi
 
 std::size_t find_contour(const SceneMap& map, const RenderedModel& model, const RigidTransform& camera_from_part,
                          std::span<EdgePoint> points) {
+  // Kept from counting them, as long as they are not very many.
+  struct ContourCell {
+    int u, v;
+    Eigen::Vector2f direction;
+  };
+  std::array<ContourCell, most_kept> kept;
   std::size_t cells = 0;
-  for_each_contour_cell(map, model, [&](int, int, const Eigen::Vector2f&) { ++cells; });
+  for_each_contour_cell(map, model, [&](int u, int v, const Eigen::Vector2f& direction) {
+    if (cells < kept.size()) kept[cells] = {u, v, direction};
+    ++cells;
+  });
   if (cells == 0 || points.empty()) return 0;
   const std::size_t step = (cells + points.size() - 1) / points.size();
   const RigidTransform part_from_camera = inverse(camera_from_part);
   std::size_t seen = 0;
   std::size_t count = 0;
-  for_each_contour_cell(map, model, [&](int u, int v, const Eigen::Vector2f& direction) {
+  const auto take = [&](int u, int v, const Eigen::Vector2f& direction) {
     if (seen++ % step != 0) return;
     const Vector3 point =
         model.camera.point(static_cast<float>(u), static_cast<float>(v), model.front[model.camera.index(u, v)]);
     const Vector3 tangent(-direction.y(), direction.x(), 0.0F);
     points[count++] = {part_from_camera * point, part_from_camera.rotation * tangent.normalized()};
-  });
+  };
+  if (cells <= kept.size()) {
+    for (const ContourCell& cell : std::span(kept).first(cells)) take(cell.u, cell.v, cell.direction);
+  } else {
+    for_each_contour_cell(map, model, take);
+  }
   return count;
 }
 

@@ -8,6 +8,7 @@
 #include "core/detect/consistency.hpp"
 #include "core/detect/contour.hpp"
 #include "core/detect/visible_surface.hpp"
+#include "core/geometry/lanes.hpp"
 
 namespace graspd {
 
@@ -23,20 +24,49 @@ constexpr std::size_t most_contour_points = 256;
 
 /// The normal equations of one iteration; turns are about the part's centre, in units of its radius, so
 /// that turns and shifts weigh alike.
-struct NormalEquations {
-  Matrix6 hessian = Matrix6::Zero();
-  Vector6 gradient = Vector6::Zero();
+class NormalEquations {
+ public:
   int pairs = 0;
-};
 
-/// Adds one correspondence: the point should move by `distance` along `direction`.
-void add_row(const Vector3& arm, const Vector3& direction, float distance, float weight, NormalEquations& equations) {
-  Vector6 row;
-  row.head<3>() = arm.cross(direction);
-  row.tail<3>() = direction;
-  equations.hessian.noalias() += weight * row * row.transpose();
-  equations.gradient += weight * distance * row;
-}
+  /// Adds one correspondence: the point should move by `distance` along `direction`.
+  void add(const Vector3& arm, const Vector3& direction, float distance, float weight) {
+    const Vector3 turn = arm.cross(direction);
+    const Lanes upper{turn.x(), turn.y(), turn.z(), direction.x()};
+    const Lanes lower{direction.y(), direction.z(), 0.0F, 0.0F};
+    const Lanes weighted_upper = weight * upper;
+    const Lanes weighted_lower = weight * lower;
+    for (std::size_t j = 0; j < 4; ++j) {
+      upper_[j] += weighted_upper * upper[j];
+      lower_[j] += weighted_lower * upper[j];
+    }
+    for (std::size_t j = 0; j < 2; ++j) lower_[4 + j] += weighted_lower * lower[j];
+    upper_gradient_ += weight * distance * upper;
+    lower_gradient_ += weight * distance * lower;
+  }
+  /// Symmetric; only the lower triangle is filled.
+  [[nodiscard]] Matrix6 hessian() const {
+    Matrix6 matrix = Matrix6::Zero();
+    for (int j = 0; j < 6; ++j) {
+      for (int i = j; i < 6; ++i) {
+        const auto column = static_cast<std::size_t>(j);
+        matrix(i, j) = i < 4 ? upper_[column][i] : lower_[column][i - 4];
+      }
+    }
+    return matrix;
+  }
+  [[nodiscard]] Vector6 gradient() const {
+    Vector6 vector;
+    for (int i = 0; i < 6; ++i) vector[i] = i < 4 ? upper_gradient_[i] : lower_gradient_[i - 4];
+    return vector;
+  }
+
+ private:
+  // Column by column the first four rows, and the last two with two that stay zero.
+  std::array<Lanes, 4> upper_{};
+  std::array<Lanes, 6> lower_{};
+  Lanes upper_gradient_{};
+  Lanes lower_gradient_{};
+};
 
 float tukey(float squared, float gate) {
   const float share = std::max(0.0F, 1.0F - squared / (gate * gate));
@@ -52,7 +82,7 @@ void accumulate_surface(const SceneMap& map, const Bank& bank, const RigidTransf
     const Vector3 gap = cell->point - point;
     const float squared = gap.squaredNorm();
     if (squared > gate * gate || cell->normal.dot(pose.rotation * surface.normal) < compatible_normal) return;
-    add_row((point - centre) * inverse_radius, cell->normal, cell->normal.dot(gap), tukey(squared, gate), equations);
+    equations.add((point - centre) * inverse_radius, cell->normal, cell->normal.dot(gap), tukey(squared, gate));
     ++equations.pairs;
   };
   for_each_looked_up(map, bank, pose, visible_row(bank, pose), points, add);
@@ -78,8 +108,8 @@ void accumulate_edges(const SceneMap& map, const DepthEdges& edges, const Bank& 
     // An edge that points at the sensor has no side to be drawn to.
     if (length < 0.3F * drawn.point.norm()) return;
     const Vector3 direction = across / length;
-    add_row((drawn.point - centre) * inverse_radius, direction, direction.dot(gap),
-            edge_weight * tukey(gap.squaredNorm(), gate), equations);
+    equations.add((drawn.point - centre) * inverse_radius, direction, direction.dot(gap),
+                  edge_weight * tukey(gap.squaredNorm(), gate));
   };
   // In batches, so that the memory is asked for all of their cells before the first is needed.
   std::array<Drawn, 32> batch;
@@ -125,9 +155,9 @@ RigidTransform refine_pose(const SceneMap& map, const DepthEdges& edges, const B
     accumulate_surface(map, bank, pose, schedule.points, gate, equations);
     if (equations.pairs < fewest_pairs) break;
     accumulate_edges(map, edges, bank, contour, pose, schedule.points, std::max(gate, schedule.edge_gate), equations);
-    Matrix6 damped = equations.hessian;
-    damped.diagonal().array() += 0.01F * equations.hessian.trace() / 6.0F;
-    const Vector6 solution = damped.ldlt().solve(equations.gradient);
+    Matrix6 damped = equations.hessian();
+    damped.diagonal().array() += 0.01F * damped.trace() / 6.0F;
+    const Vector6 solution = damped.ldlt().solve(equations.gradient());
     pose = step_from(solution, pose * bank.part->centre, radius) * pose;
   }
   pose.rotation = orthonormalised(pose.rotation);

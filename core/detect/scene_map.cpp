@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/geometry/lanes.hpp"
+
 namespace graspd {
 
 namespace {
@@ -102,6 +104,35 @@ WholeBlock read_block(const DepthFrame& frame, int stride, int mu, int mv) {
   return block;
 }
 
+/// The blocks from (mu, mv) on, one in each lane, as read_block() reads each; all of them whole.
+std::array<WholeBlock, lane_count> read_blocks(const DepthFrame& frame, int stride, int mu, int mv) {
+  Lanes low = Lanes{} + furthest_depth;
+  Lanes high = Lanes{} + nearest_depth;
+  Lanes sum_u{};
+  Lanes sum_v{};
+  Lanes sum_z{};
+  LaneMask count{};
+  const auto width = static_cast<float>(stride);
+  const Lanes first_u = static_cast<float>(mu * stride) + Lanes{0.0F, width, 2.0F * width, 3.0F * width};
+  for (int v = mv * stride; v < (mv + 1) * stride; ++v) {
+    const float* const row = &frame.depth[frame.camera.index(mu * stride, v)];
+    for (int k = 0; k < stride; ++k) {
+      const Lanes z{row[k], row[stride + k], row[2 * stride + k], row[3 * stride + k]};
+      const LaneMask measured = (z >= nearest_depth) & (z <= furthest_depth);
+      low = (measured & (z < low)) ? z : low;
+      high = (measured & (z > high)) ? z : high;
+      count -= measured;
+      sum_u += measured ? first_u + static_cast<float>(k) : Lanes{};
+      sum_v += measured ? Lanes{} + static_cast<float>(v) : Lanes{};
+      sum_z += measured ? z : Lanes{};
+    }
+  }
+  std::array<WholeBlock, lane_count> blocks;
+  for (std::size_t i = 0; i < lane_count; ++i)
+    blocks[i] = {{low[i], high[i], count[i]}, {sum_u[i], sum_v[i], sum_z[i]}};
+  return blocks;
+}
+
 bool supported(const SceneMap& map, int u, int v) {
   const float z = map.at(u, v).point.z();
   const float step = map.surface_step(z);
@@ -199,10 +230,14 @@ SceneMap make_scene_map(const Camera& camera, int stride, std::span<MapCell> sto
 void bin_frame(const DepthFrame& frame, const Execution& execution, SceneMap& map) {
   const int enough = std::max(1, map.stride * map.stride / 3);
   parallel_for(map.camera.height, execution, 8, [&](int v) {
+    std::array<WholeBlock, lane_count> blocks;
+    const int whole = (v + 1) * map.stride <= frame.camera.height ? frame.camera.width / map.stride / 4 * 4 : 0;
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       cell = MapCell{};
-      const WholeBlock block = read_block(frame, map.stride, u, v);
+      if (u < whole && u % 4 == 0) blocks = read_blocks(frame, map.stride, u, v);
+      const WholeBlock block =
+          u < whole ? blocks[static_cast<std::size_t>(u % 4)] : read_block(frame, map.stride, u, v);
       if (block.range.count < enough) continue;
       const float step = map.surface_step(block.range.low);
       if (block.range.high - block.range.low <= step) {
