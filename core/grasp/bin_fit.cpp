@@ -259,6 +259,7 @@ BinFit fit_bin(const CloudMap& map, const BinParameters& bin, const Vector3& up,
   constexpr int walls_needed = 3;
   constexpr float overshoot = 0.009F;  // Half a degree.
   BinFit fit;
+  read_whole(map);
   WallPoints(map, bin, bin.opens_along_z(up), robot_from_camera).collect(points);
   Outline outline;
   outline.half = 0.5F * bin.inner_size.head<2>();

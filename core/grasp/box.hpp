@@ -37,6 +37,18 @@ struct Box {
   return {box.lower + motion.cwiseMin(0.0F), box.upper + motion.cwiseMax(0.0F)};
 }
 
+/// Bounds, in frame o, of a box that is posed there.
+[[nodiscard]] inline Box bounds_in(const RigidTransform& other_from_frame, const Box& box) {
+  const Vector3 centre = other_from_frame * box.centre();
+  const Vector3 half = other_from_frame.rotation.cwiseAbs() * box.half_size();
+  return {centre - half, centre + half};
+}
+
+/// Whether all of `inner` lies in `outer`.
+[[nodiscard]] inline bool holds(const Box& outer, const Box& inner) {
+  return (inner.lower.array() >= outer.lower.array()).all() && (inner.upper.array() <= outer.upper.array()).all();
+}
+
 /// True when a box that moves straight by `motion` passes over `point`.
 [[nodiscard]] bool sweeps_over(const Box& box, const Vector3& motion, const Vector3& point);
 

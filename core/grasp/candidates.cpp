@@ -110,8 +110,8 @@ GraspRejection furthest(GraspRejection a, GraspRejection b) {
   constexpr std::array order{GraspRejection::no_bin,    GraspRejection::no_grasp, GraspRejection::tool,
                              GraspRejection::opening,   GraspRejection::tilt,     GraspRejection::reach,
                              GraspRejection::avoided,   GraspRejection::wall,     GraspRejection::collision,
-                             GraspRejection::neighbour, GraspRejection::unseen,   GraspRejection::closing,
-                             GraspRejection::retreat,   GraspRejection::none};
+                             GraspRejection::neighbour, GraspRejection::closing,  GraspRejection::retreat,
+                             GraspRejection::unseen,    GraspRejection::none};
   return std::find(order.begin(), order.end(), a) < std::find(order.begin(), order.end(), b) ? b : a;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/grasp/collision.hpp"
 #include "core/grasp/neighbours.hpp"
+#include "core/grasp/ranking.hpp"
 #include "core/grasp/unexplained.hpp"
 
 namespace graspd {
@@ -46,8 +47,8 @@ bool closing_collides(const Attempt& attempt, float opening) {
   touching.minimum_clearance = 0.0F;
   const Sweep closing{attempt.camera_from_tool, &jaws, Vector3::Zero()};
   return sweep_collides(*attempt.around.cloud, closing, attempt.part, touching) ||
-         sweep_meets_instances(attempt.around.instances, attempt.around.banks, attempt.instance, closing,
-                               0.5F * attempt.parameters.collision.minimum_clearance);
+         sweep_meets_instances(attempt.around.instances, attempt.around.spheres, attempt.around.banks, attempt.instance,
+                               closing, 0.5F * attempt.parameters.collision.minimum_clearance);
 }
 
 bool retreat_collides(const Attempt& attempt) {
@@ -62,52 +63,53 @@ bool retreat_collides(const Attempt& attempt) {
       attempt.tool.contact_margin, attempt.bank.surface.first(std::min(carried_points, attempt.bank.surface.size())));
 }
 
-/// Of all banks: a part of any of them may hide.
-float hidden_share(const Attempt& attempt, const Gripper& gripper) {
+/// Of all banks: a part of any of them may hide. Above `most` it is a lower bound.
+float hidden_share(const Attempt& attempt, const Gripper& gripper, float most) {
   float share = 0.0F;
-  for (const Bank& bank : attempt.around.banks) {
+  for (std::size_t bank = 0; bank < attempt.around.banks.size() && share <= most; ++bank) {
     share = std::max(share, hidden_part_share(*attempt.around.hidden, bank, attempt.around.walls,
-                                              attempt.camera_from_tool, gripper));
+                                              attempt.camera_from_tool, gripper, most));
   }
   return share;
 }
 
 /// What parts that nobody has recognised leave of a way in: those that were measured in part, and those that may hide.
-GraspRejection test_unrecognised(const Attempt& attempt, const Gripper& gripper, const Sweep& sweep, float& extra) {
+/// With more than `useful` of them hidden the grasp is beaten.
+GraspRejection test_unrecognised(const Attempt& attempt, const Gripper& gripper, const Sweep& sweep, float useful,
+                                 GraspCheck& check) {
   const CollisionParameters& collision = attempt.parameters.collision;
-  const float share = hidden_share(attempt, gripper);
-  if (share > collision.maximum_hidden) return GraspRejection::unseen;
-  extra = hidden_part_clearance(share, collision);
-  const float clearance = collision.unexplained_clearance + extra;
+  const float most = std::min(collision.maximum_hidden, hidden_part_share_at(useful, collision));
+  const float share = hidden_share(attempt, gripper, most);
+  check.beaten = share > most && most < collision.maximum_hidden;
+  if (check.beaten) return GraspRejection::none;
+  if (share > most) return GraspRejection::unseen;
+  check.hidden = hidden_part_clearance(share, collision);
+  const float clearance = collision.unexplained_clearance + check.hidden;
   if (clearance <= 0.0F || !nears_unexplained(attempt.around, sweep, attempt.part, clearance)) {
     return GraspRejection::none;
   }
-  return extra > 0.0F ? GraspRejection::unseen : GraspRejection::collision;
+  return check.hidden > 0.0F ? GraspRejection::unseen : GraspRejection::collision;
 }
 
 /// The first test that fails with the jaws this far open.
-GraspRejection test_opening(const Attempt& attempt, float opening, float& hidden) {
-  const Gripper gripper = open_gripper(attempt.tool, opening);
-  const Sweep sweep = way_in(attempt, gripper);
+GraspRejection test_opening(const Attempt& attempt, const Gripper& gripper, const Sweep& sweep, float opening,
+                            float useful, GraspCheck& check) {
   const CollisionParameters& collision = attempt.parameters.collision;
   if (sweep_meets_walls(attempt.around.walls, sweep, collision.minimum_clearance)) return GraspRejection::wall;
   if (sweep_collides(*attempt.around.cloud, sweep, attempt.part, collision)) return GraspRejection::collision;
-  if (sweep_meets_instances(attempt.around.instances, attempt.around.banks, attempt.instance, sweep,
-                            collision.minimum_clearance)) {
+  if (sweep_meets_instances(attempt.around.instances, attempt.around.spheres, attempt.around.banks, attempt.instance,
+                            sweep, collision.minimum_clearance)) {
     return GraspRejection::neighbour;
   }
-  if (const GraspRejection rejection = test_unrecognised(attempt, gripper, sweep, hidden);
-      rejection != GraspRejection::none) {
-    return rejection;
-  }
   if (closing_collides(attempt, opening)) return GraspRejection::closing;
-  return retreat_collides(attempt) ? GraspRejection::retreat : GraspRejection::none;
+  if (retreat_collides(attempt)) return GraspRejection::retreat;
+  return test_unrecognised(attempt, gripper, sweep, useful, check);
 }
 
 }  // namespace
 
 GraspCheck check_grasp(const GraspSurroundings& around, std::size_t instance, const GraspCandidate& candidate,
-                       const GraspParameters& parameters) {
+                       const GraspParameters& parameters, float needed) {
   const Bank& bank = around.banks[around.instances[instance].bank];
   const PartGrasp& grasp = bank.grasps[candidate.grasp];
   const Tool& tool = parameters.tools.tools[candidate.tool];
@@ -124,16 +126,20 @@ GraspCheck check_grasp(const GraspSurroundings& around, std::size_t instance, co
                         {inverse(camera_from_part) * camera_from_tool,
                          grown({bank.part->box_min, bank.part->box_max}, tool.contact_margin)}};
   const Openings openings = openings_of(tool, grasp);
-  GraspCheck check{GraspRejection::opening, 0.0F, 0.0F, 0.0F};
+  const float useful =
+      hidden_allowed(candidate.value, needed, parameters.weights, parameters.collision.clearance_range);
+  GraspCheck check{GraspRejection::opening, 0.0F, 0.0F, 0.0F, false};
   for (std::size_t i = 0; i < openings.count; ++i) {
-    const GraspRejection rejection = test_opening(attempt, openings.widths[i], check.hidden);
+    const float opening = openings.widths[i];
+    const Gripper gripper = open_gripper(tool, opening);
+    const Sweep sweep = way_in(attempt, gripper);
+    const GraspRejection rejection = test_opening(attempt, gripper, sweep, opening, useful, check);
+    if (check.beaten) break;
     if (furthest(check.reason, rejection) == rejection) {
       check.reason = rejection;
-      check.opening = openings.widths[i];
+      check.opening = opening;
     }
     if (rejection != GraspRejection::none) continue;
-    const Gripper gripper = open_gripper(tool, check.opening);
-    const Sweep sweep = way_in(attempt, gripper);
     check.clearance = sweep_clearance(*around.cloud, sweep, attempt.part, parameters.collision);
     break;
   }

@@ -1,6 +1,7 @@
 #include "core/grasp/cloud_map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,60 +12,57 @@ constexpr float unbounded = std::numeric_limits<float>::infinity();
 
 int divided_up(int number, int divisor) { return (number + divisor - 1) / divisor; }
 
+int whole_tiles(int pixels, int step) {
+  return divided_up(divided_up(pixels, step), CloudMap::tile_size) * CloudMap::tile_size;
+}
+
 /// The smallest step at which the cells fit the memory.
 int smallest_step(const Camera& camera, std::size_t cells) {
   int step = 1;
-  while (static_cast<std::size_t>(divided_up(camera.width, step)) *
-             static_cast<std::size_t>(divided_up(camera.height, step)) >
+  while (static_cast<std::size_t>(whole_tiles(camera.width, step)) *
+             static_cast<std::size_t>(whole_tiles(camera.height, step)) >
          cells) {
     ++step;
   }
   return step;
 }
 
-/// The depth that stands for the pixels from (left, top) on.
-float cell_depth(const DepthFrame& frame, int left, int top, int step) {
+/// Depths of the cells of a tile's row; `left` and `top` are pixels.
+void read_row(const DepthFrame& frame, int left, int top, int step, float* row) {
   const Camera& camera = frame.camera;
-  const int right = std::min(left + step, camera.width);
-  const int bottom = std::min(top + step, camera.height);
-  const float middle =
-      frame.depth[camera.index(std::min(left + step / 2, right - 1), std::min(top + step / 2, bottom - 1))];
-  if (middle > 0.0F) return middle;
-  for (int v = top; v < bottom; ++v) {
-    for (int u = left; u < right; ++u) {
-      if (const float depth = frame.depth[camera.index(u, v)]; depth > 0.0F) return depth;
+  std::fill_n(row, CloudMap::tile_size, 0.0F);
+  if (top >= camera.height) return;
+  const int rows = std::min(step, camera.height - top);
+  const float* const first = frame.depth.data() + camera.index(0, top);
+  const float* const last = first + (rows - 1) * camera.width;
+  const float* const middle = first + std::min(step / 2, rows - 1) * camera.width;
+  for (int i = 0; i < CloudMap::tile_size && left < camera.width; ++i, left += step) {
+    const int right = std::min(left + step, camera.width) - 1;
+    for (const float depth :
+         {middle[std::min(left + step / 2, right)], first[left], first[right], last[left], last[right]}) {
+      if (!(depth > 0.0F)) continue;
+      row[i] = depth;
+      break;
     }
   }
-  return 0.0F;
 }
 
-void bound_tiles(CloudMap& map) {
-  const Camera& camera = map.camera;
-  std::fill(map.tiles.begin(), map.tiles.end(), Box{Vector3::Constant(unbounded), Vector3::Constant(-unbounded)});
-  for (int v = 0; v < camera.height; ++v) {
-    const float y = (static_cast<float>(v) - camera.cy) / camera.fy;
-    const float* const row = map.depth.data() + camera.index(0, v);
-    Box* tile = map.tiles.data() +
-                static_cast<std::size_t>(v / CloudMap::tile_size) * static_cast<std::size_t>(map.tile_columns);
-    for (int first = 0; first < camera.width; first += CloudMap::tile_size, ++tile) {
-      const int last = std::min(first + CloudMap::tile_size, camera.width) - 1;
-      float near = unbounded;
-      float far = -unbounded;
-      for (int u = first; u <= last; ++u) {
-        const bool measured = row[u] > 0.0F;
-        near = std::min(near, measured ? row[u] : unbounded);
-        far = std::max(far, measured ? row[u] : -unbounded);
-      }
-      if (near > far) continue;
-      // Each coordinate is a ray times a depth: its extremes lie at the ends of both.
-      const float left = (static_cast<float>(first) - camera.cx) / camera.fx;
-      const float right = (static_cast<float>(last) - camera.cx) / camera.fx;
-      const Vector3 low(std::min(left * near, left * far), std::min(y * near, y * far), near);
-      const Vector3 high(std::max(right * near, right * far), std::max(y * near, y * far), far);
-      tile->lower = tile->lower.cwiseMin(low);
-      tile->upper = tile->upper.cwiseMax(high);
-    }
+/// Makes room for the points of a tile's row, which begins at cell (first, v), in the bounds of the tile.
+void add_row(const Camera& camera, const float* row, int first, int v, Box& bounds) {
+  float near = unbounded;
+  float far = -unbounded;
+  for (int i = 0; i < CloudMap::tile_size; ++i) {
+    const bool measured = row[i] > 0.0F;
+    near = std::min(near, measured ? row[i] : unbounded);
+    far = std::max(far, measured ? row[i] : -unbounded);
   }
+  if (near > far) return;
+  // Each coordinate is a ray times a depth: its extremes lie at the ends of both.
+  const float y = (static_cast<float>(v) - camera.cy) / camera.fy;
+  const float left = (static_cast<float>(first) - camera.cx) / camera.fx;
+  const float right = (static_cast<float>(first + CloudMap::tile_size - 1) - camera.cx) / camera.fx;
+  bounds.lower = bounds.lower.cwiseMin(Vector3(std::min(left * near, left * far), std::min(y * near, y * far), near));
+  bounds.upper = bounds.upper.cwiseMax(Vector3(std::max(right * near, right * far), std::max(y * near, y * far), far));
 }
 
 }  // namespace
@@ -72,30 +70,49 @@ void bound_tiles(CloudMap& map) {
 CloudMap carve_cloud_map(Arena& arena, std::uint32_t cells) {
   CloudMap map;
   map.depth_memory = arena.take<float>(cells, "grasp cloud");
-  // Enough for the worst shape, a single row of cells.
-  map.tile_memory = arena.take<Box>(cells / CloudMap::tile_size + 2 * CloudMap::tile_size, "grasp cloud");
+  const std::size_t tiles = cells / (CloudMap::tile_size * CloudMap::tile_size);
+  map.tile_memory = arena.take<Box>(tiles, "grasp cloud");
+  map.known_memory = arena.take<std::uint8_t>(tiles, "grasp cloud");
   return map;
 }
 
-void fill_cloud_map(const DepthFrame& frame, float spacing, float reference_depth, CloudMap& map) {
+void begin_cloud_map(const DepthFrame& frame, float spacing, float reference_depth, CloudMap& map) {
   const Camera& full = frame.camera;
   const float pixels = spacing * std::min(full.fx, full.fy) / std::max(reference_depth, 0.01F);
-  const int step =
+  map.frame = frame;
+  map.step =
       std::max(static_cast<int>(std::clamp(pixels, 1.0F, 1000.0F)), smallest_step(full, map.depth_memory.size()));
-  const auto scale = 1.0F / static_cast<float>(step);
-  const auto middle = static_cast<float>(step / 2);
-  map.camera = {divided_up(full.width, step), divided_up(full.height, step), full.fx * scale, full.fy * scale,
-                (full.cx - middle) * scale,   (full.cy - middle) * scale};
-  map.tile_columns = divided_up(map.camera.width, CloudMap::tile_size);
-  const auto tiles = static_cast<std::size_t>(map.tile_columns) *
-                     static_cast<std::size_t>(divided_up(map.camera.height, CloudMap::tile_size));
+  const auto scale = 1.0F / static_cast<float>(map.step);
+  const int middle_pixel = map.step / 2;
+  const auto middle = static_cast<float>(middle_pixel);
+  map.camera = {whole_tiles(full.width, map.step), whole_tiles(full.height, map.step), full.fx * scale, full.fy * scale,
+                (full.cx - middle) * scale,        (full.cy - middle) * scale};
+  map.tile_columns = map.camera.width / CloudMap::tile_size;
   map.depth = map.depth_memory.first(map.camera.pixel_count());
+  const std::size_t tiles = map.depth.size() / (CloudMap::tile_size * CloudMap::tile_size);
   map.tiles = map.tile_memory.first(tiles);
-  for (int v = 0; v < map.camera.height; ++v) {
-    float* const row = map.depth.data() + map.camera.index(0, v);
-    for (int u = 0; u < map.camera.width; ++u) row[u] = cell_depth(frame, u * step, v * step, step);
+  map.known = map.known_memory.first(tiles);
+  std::fill(map.known.begin(), map.known.end(), std::uint8_t{0});
+}
+
+void read_tile(const CloudMap& map, int column, int row) {
+  const std::size_t tile =
+      static_cast<std::size_t>(row) * static_cast<std::size_t>(map.tile_columns) + static_cast<std::size_t>(column);
+  Box& bounds = map.tiles[tile];
+  bounds = {Vector3::Constant(unbounded), Vector3::Constant(-unbounded)};
+  const int first = column * CloudMap::tile_size;
+  for (int v = row * CloudMap::tile_size; v < (row + 1) * CloudMap::tile_size; ++v) {
+    float* const cells = map.depth.data() + map.camera.index(first, v);
+    read_row(map.frame, first * map.step, v * map.step, map.step, cells);
+    add_row(map.camera, cells, first, v, bounds);
   }
-  bound_tiles(map);
+  map.known[tile] = 1;
+}
+
+void read_whole(const CloudMap& map) {
+  for (int row = 0; row < map.camera.height / CloudMap::tile_size; ++row) {
+    for (int column = 0; column < map.tile_columns; ++column) static_cast<void>(tile_bounds(map, column, row));
+  }
 }
 
 CellRange cells_of(const Camera& camera, const RigidTransform& camera_from_box_frame, const Box& box) {

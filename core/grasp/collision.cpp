@@ -9,6 +9,9 @@
 namespace graspd {
 namespace {
 
+/// Metres of a piece that are looked at first.
+constexpr float tip_length = 0.020F;
+
 /// The smallest of the distances seen, kept sorted.
 class NearestDistances {
  public:
@@ -37,18 +40,26 @@ bool is_part(const Vector3& point, const GripperPiece& piece, const Gripper& gri
 bool sweep_collides(const CloudMap& map, const Sweep& sweep, const HeldPart& part,
                     const CollisionParameters& parameters) {
   const RigidTransform tool_from_camera = inverse(sweep.camera_from_tool);
-  for (const GripperPiece& piece : sweep.gripper->all()) {
-    const Box box = grown(piece.box, parameters.minimum_clearance);
-    const Box bounds = swept_bounds(box, sweep.motion);
+  const auto collides = [&](const GripperPiece& piece, const Box& box, const Vector3& motion) {
+    const Box bounds = swept_bounds(box, motion);
     std::uint32_t hits = 0;
-    visit_points(map, sweep.camera_from_tool, tool_from_camera, bounds, [&](const Vector3& point) {
-      if (!bounds.contains(point) || !sweeps_over(box, sweep.motion, point)) return false;
+    visit_points(map, sweep.camera_from_tool, tool_from_camera, bounds, [&](std::size_t, const Vector3& point) {
+      if (!sweeps_over(box, motion, point)) return false;
       if (is_part(point, piece, *sweep.gripper, part)) return false;
       return ++hits >= parameters.minimum_points;
     });
-    if (hits >= parameters.minimum_points) return true;
-  }
-  return false;
+    return hits >= parameters.minimum_points;
+  };
+  const std::span<const GripperPiece> pieces = sweep.gripper->all();
+  // Most collisions are those of the tips where they come to rest, and those are found fast.
+  const bool tips_collide = std::any_of(pieces.begin(), pieces.end(), [&](const GripperPiece& piece) {
+    Box tip = grown(piece.box, parameters.minimum_clearance);
+    tip.lower.z() = std::max(tip.lower.z(), tip.upper.z() - tip_length);
+    return piece.touches_part && collides(piece, tip, Vector3::Zero());
+  });
+  return tips_collide || std::any_of(pieces.begin(), pieces.end(), [&](const GripperPiece& piece) {
+           return collides(piece, grown(piece.box, parameters.minimum_clearance), sweep.motion);
+         });
 }
 
 float sweep_clearance(const CloudMap& map, const Sweep& sweep, const HeldPart& part,
@@ -58,7 +69,8 @@ float sweep_clearance(const CloudMap& map, const Sweep& sweep, const HeldPart& p
   for (const GripperPiece& piece : sweep.gripper->all()) {
     const Box swept = swept_bounds(piece.box, sweep.motion);
     NearestDistances nearest(parameters.minimum_points, clearance);
-    visit_points(map, sweep.camera_from_tool, tool_from_camera, grown(swept, clearance), [&](const Vector3& point) {
+    const Box near = grown(swept, clearance);
+    visit_points(map, sweep.camera_from_tool, tool_from_camera, near, [&](std::size_t, const Vector3& point) {
       const float distance = distance_to_box(point, swept);
       if (distance >= nearest.last() || is_part(point, piece, *sweep.gripper, part)) return false;
       nearest.add(distance);

@@ -13,29 +13,51 @@ Vector3 centre_of(const Instance& instance, std::span<const Bank> banks) {
   return instance.camera_from_part * Vector3(0.5F * (part.box_min + part.box_max));
 }
 
+/// Whether a point lies where the box passes. Most points of a part are far off: its bounds in the part's frame tell.
 bool piece_meets_surface(const Box& box, const Vector3& motion, const RigidTransform& tool_from_part,
                          std::span<const SurfacePoint> surface) {
   const Box bounds = swept_bounds(box, motion);
+  const Box near = bounds_in(inverse(tool_from_part), bounds);
   return std::any_of(surface.begin(), surface.end(), [&](const SurfacePoint& point) {
+    if (!near.contains(point.position)) return false;
     const Vector3 place = tool_from_part * point.position;
     return bounds.contains(place) && sweeps_over(box, motion, place);
   });
 }
 
+/// Bounds of all pieces on their way.
+Box swept_gripper(const Sweep& sweep, float clearance) {
+  const std::span<const GripperPiece> pieces = sweep.gripper->all();
+  if (pieces.empty()) return {Vector3::Constant(1e9F), Vector3::Constant(-1e9F)};
+  Box bounds = pieces.front().box;
+  for (const GripperPiece& piece : pieces) {
+    bounds.lower = bounds.lower.cwiseMin(piece.box.lower);
+    bounds.upper = bounds.upper.cwiseMax(piece.box.upper);
+  }
+  return swept_bounds(grown(bounds, clearance), sweep.motion);
+}
+
 }  // namespace
 
-bool sweep_meets_instances(std::span<const Instance> instances, std::span<const Bank> banks, std::size_t held,
-                           const Sweep& sweep, float clearance) {
+BoundingSphere bounding_sphere(const Instance& instance, std::span<const Bank> banks) {
+  return {centre_of(instance, banks), radius_of(banks[instance.bank])};
+}
+
+bool sweep_meets_instances(std::span<const Instance> instances, std::span<const BoundingSphere> spheres,
+                           std::span<const Bank> banks, std::size_t held, const Sweep& sweep, float clearance) {
   const RigidTransform tool_from_camera = inverse(sweep.camera_from_tool);
+  const Box whole = swept_gripper(sweep, clearance);
   for (std::size_t i = 0; i < instances.size(); ++i) {
     if (i == held) continue;
+    const BoundingSphere sphere = sphere_at(spheres, instances, banks, i);
+    const Vector3 centre = tool_from_camera * sphere.centre;
+    const float radius = sphere.radius;
+    if (distance_to_box(centre, whole) > radius) continue;
     const Bank& bank = banks[instances[i].bank];
-    const float radius = radius_of(bank);
-    const Vector3 centre = tool_from_camera * centre_of(instances[i], banks);
+    const RigidTransform tool_from_part = tool_from_camera * instances[i].camera_from_part;
     for (const GripperPiece& piece : sweep.gripper->all()) {
       const Box box = grown(piece.box, clearance);
       if (distance_to_box(centre, swept_bounds(box, sweep.motion)) > radius) continue;
-      const RigidTransform tool_from_part = tool_from_camera * instances[i].camera_from_part;
       if (!sweep_meets_box(box, sweep.motion, tool_from_part, {bank.part->box_min, bank.part->box_max})) continue;
       if (piece_meets_surface(box, sweep.motion, tool_from_part, bank.surface)) return true;
     }

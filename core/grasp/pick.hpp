@@ -10,7 +10,7 @@
 namespace graspd {
 
 /// Why an instance was found but not picked. A grasp is put to the tests in the order of `tool`, `opening`, `tilt`,
-/// `reach`, `avoided`, `wall`, `collision`, `neighbour`, `unseen`, `closing`, `retreat`; an instance has the reason of
+/// `reach`, `avoided`, `wall`, `collision`, `neighbour`, `closing`, `retreat`, `unseen`; an instance has the reason of
 /// its grasp that came furthest.
 enum class GraspRejection : std::uint8_t {
   none,

@@ -57,7 +57,9 @@ Search best_free(const GraspSurroundings& around, std::size_t instance, const Gr
     }
     ++search.checks;
     const PartGrasp& grasp = bank.grasps[candidate.grasp];
-    const GraspCheck check = check_grasp(around, instance, candidate, parameters);
+    const float needed = found ? search.best.value : -std::numeric_limits<float>::infinity();
+    const GraspCheck check = check_grasp(around, instance, candidate, parameters, needed);
+    if (check.beaten) continue;
     if (check.reason != GraspRejection::none) {
       if (!found) search.reason = furthest(search.checks == 1 ? check.reason : search.reason, check.reason);
       static_cast<void>(
@@ -102,12 +104,13 @@ PickResult choose_pick(const DepthFrame& frame, const Detections& detections, st
   workspace.reasons.clear();
   workspace.ranks.clear();
   workspace.rejected.clear();
+  workspace.spheres.clear();
   const std::size_t count = std::min(detections.instances.size(), workspace.picks.capacity());
   if (count < detections.instances.size()) result.flags |= flag_picks_cut;
   const std::span<const Instance> instances = detections.instances.first(count);
   if (count > 0) {
-    fill_cloud_map(frame, parameters.collision.sample_spacing, reference_depth(instances), workspace.cloud);
-    fill_hidden_space(workspace.cloud, detections.instances, banks, workspace.hidden);
+    begin_cloud_map(frame, parameters.collision.sample_spacing, reference_depth(instances), workspace.cloud);
+    begin_hidden_space(workspace.cloud, detections.instances, banks, workspace.hidden);
   }
 
   const Vector3 up = up_direction(parameters);
@@ -119,10 +122,16 @@ PickResult choose_pick(const DepthFrame& frame, const Detections& detections, st
     bin.robot_from_bin = result.bin.robot_from_bin;
   }
   // Those that the workspace cuts are in the way all the same.
+  for (const Instance& instance : instances)
+    static_cast<void>(workspace.spheres.push_back(bounding_sphere(instance, banks)));
+  const std::span<Explained> explained = workspace.explained.first(workspace.cloud.depth.size());
+  std::fill(explained.begin(), explained.end(), Explained::unasked);
   const GraspSurroundings around{&workspace.cloud,
                                  &workspace.hidden,
+                                 explained,
                                  bin_walls(bin, up, camera_from_robot),
                                  detections.instances,
+                                 workspace.spheres.span(),
                                  banks,
                                  camera_from_robot,
                                  camera_from_robot.rotation * up};

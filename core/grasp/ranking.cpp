@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/grasp/neighbours.hpp"
@@ -30,6 +31,12 @@ float grasp_value(const GraspFigures& figures, const RankingWeights& weights, fl
          weights.height * (1.0F - share(figures.drop, weights.height_range)) +
          weights.turn * (1.0F - figures.turn / std::numbers::pi_v<float>)+weights.hidden *
              (1.0F - share(figures.hidden, clearance_range));
+}
+
+float hidden_allowed(float value, float needed, const RankingWeights& weights, float clearance_range) {
+  const float margin = value - needed;
+  if (!(margin <= weights.hidden)) return std::numeric_limits<float>::infinity();
+  return weights.hidden > 0.0F ? margin / weights.hidden * clearance_range : 0.0F;
 }
 
 std::int32_t order_rank(std::span<const Instance> instances, std::span<const Bank> banks, std::size_t instance,

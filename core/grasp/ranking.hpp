@@ -33,6 +33,10 @@ struct GraspFigures {
 ///         + w.hidden    * max(1 - hidden / clearance_range, 0)
 [[nodiscard]] float grasp_value(const GraspFigures& figures, const RankingWeights& weights, float clearance_range);
 
+/// How much of GraspFigures::hidden a grasp may have whose value without any is `value`, to be worth more than
+/// `needed`; infinite when it is so with however much.
+[[nodiscard]] float hidden_allowed(float value, float needed, const RankingWeights& weights, float clearance_range);
+
 /// Where an instance stands in the order that OrderParameters ask for, in whole steps: the greatest comes first, the
 /// value of the grasp decides among equals.
 ///   value               0

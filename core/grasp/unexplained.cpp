@@ -25,21 +25,35 @@ bool lies_on(const Bank& bank, const Vector3& place) {
   });
 }
 
-}  // namespace
+bool lies_on_bin(const BinWalls& walls, const Vector3& point) {
+  if (walls.count == 0) return false;
+  const Vector3 place = walls.bin_from_camera * point;
+  return std::any_of(walls.all().begin(), walls.all().end(),
+                     [&](const Box& wall) { return distance_to_box(place, wall) <= tolerance; });
+}
 
-bool is_explained(const GraspSurroundings& around, const Vector3& point) {
-  if (around.walls.count > 0) {
-    const Vector3 place = inverse(around.walls.camera_from_bin) * point;
-    for (const Box& wall : around.walls.all()) {
-      if (distance_to_box(place, wall) <= tolerance) return true;
+bool lies_on_instance(const GraspSurroundings& around, const Vector3& point) {
+  for (std::size_t i = 0; i < around.instances.size(); ++i) {
+    // Further out than half the diagonal, the tolerance on all sides reaches sqrt(3) times as far.
+    const BoundingSphere sphere = sphere_at(around.spheres, around.instances, around.banks, i);
+    const float radius = sphere.radius + 1.7320508F * tolerance;
+    if ((sphere.centre - point).squaredNorm() > radius * radius) continue;
+    const RigidTransform& pose = around.instances[i].camera_from_part;
+    if (lies_on(around.banks[around.instances[i].bank], pose.rotation.transpose() * (point - pose.translation))) {
+      return true;
     }
   }
-  return std::any_of(around.instances.begin(), around.instances.end(), [&](const Instance& instance) {
-    const Bank& bank = around.banks[instance.bank];
-    const RigidTransform& pose = instance.camera_from_part;
-    const Vector3 place = pose.rotation.transpose() * (point - pose.translation);
-    return lies_on(bank, place);
-  });
+  return false;
+}
+
+}  // namespace
+
+bool is_explained(const GraspSurroundings& around, std::size_t cell, const Vector3& point) {
+  Explained& answer = around.explained[cell];
+  if (answer == Explained::unasked) {
+    answer = lies_on_bin(around.walls, point) || lies_on_instance(around, point) ? Explained::yes : Explained::no;
+  }
+  return answer == Explained::yes;
 }
 
 bool nears_unexplained(const GraspSurroundings& around, const Sweep& sweep, const HeldPart& part, float clearance) {
@@ -48,12 +62,12 @@ bool nears_unexplained(const GraspSurroundings& around, const Sweep& sweep, cons
   for (const GripperPiece& piece : sweep.gripper->all()) {
     const Box box = grown(piece.box, clearance);
     const Box bounds = swept_bounds(box, sweep.motion);
-    visit_points(*around.cloud, sweep.camera_from_tool, tool_from_camera, bounds, [&](const Vector3& point) {
-      if (!bounds.contains(point) || !sweeps_over(box, sweep.motion, point)) return false;
-      if (is_part(point, piece, *sweep.gripper, part)) return false;
-      found = !is_explained(around, sweep.camera_from_tool * point);
+    const auto visit = [&](std::size_t cell, const Vector3& point) {
+      if (!sweeps_over(box, sweep.motion, point) || is_part(point, piece, *sweep.gripper, part)) return false;
+      found = !is_explained(around, cell, sweep.camera_from_tool * point);
       return found;
-    });
+    };
+    visit_points(*around.cloud, sweep.camera_from_tool, tool_from_camera, bounds, visit);
     if (found) break;
   }
   return found;

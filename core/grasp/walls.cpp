@@ -9,6 +9,7 @@ BinWalls bin_walls(const BinParameters& bin, const Vector3& up, const RigidTrans
   BinWalls result;
   if (!bin.present) return result;
   result.camera_from_bin = camera_from_robot * bin.robot_from_bin;
+  result.bin_from_camera = inverse(result.camera_from_bin);
   const Vector3 half = 0.5F * bin.inner_size;
   const Vector3 outer = half + Vector3::Constant(bin.wall);
   result.thickness = bin.wall;
@@ -35,9 +36,11 @@ BinWalls bin_walls(const BinParameters& bin, const Vector3& up, const RigidTrans
 
 bool sweep_meets_walls(const BinWalls& walls, const Sweep& sweep, float clearance) {
   if (walls.count == 0) return false;
-  const RigidTransform tool_from_bin = inverse(sweep.camera_from_tool) * walls.camera_from_bin;
+  const RigidTransform bin_from_tool = walls.bin_from_camera * sweep.camera_from_tool;
+  const RigidTransform tool_from_bin = inverse(bin_from_tool);
   return std::any_of(sweep.gripper->all().begin(), sweep.gripper->all().end(), [&](const GripperPiece& piece) {
     const Box box = grown(piece.box, clearance);
+    if (holds(walls.inside, bounds_in(bin_from_tool, swept_bounds(box, sweep.motion)))) return false;
     return std::any_of(walls.all().begin(), walls.all().end(),
                        [&](const Box& wall) { return sweep_meets_box(box, sweep.motion, tool_from_bin, wall); });
   });
@@ -46,8 +49,9 @@ bool sweep_meets_walls(const BinWalls& walls, const Sweep& sweep, float clearanc
 bool carried_meets_walls(const BinWalls& walls, const RigidTransform& camera_from_part, const Box& part_bounds,
                          const Vector3& motion, float tolerance, std::span<const SurfacePoint> points) {
   if (walls.count == 0) return false;
-  const RigidTransform bin_from_part = inverse(walls.camera_from_bin) * camera_from_part;
-  const Vector3 way = walls.camera_from_bin.rotation.transpose() * motion;
+  const RigidTransform bin_from_part = walls.bin_from_camera * camera_from_part;
+  const Vector3 way = walls.bin_from_camera.rotation * motion;
+  if (holds(walls.inside, swept_bounds(bounds_in(bin_from_part, part_bounds), way))) return false;
   const RigidTransform part_from_bin = inverse(bin_from_part);
   const Vector3 way_of_part = part_from_bin.rotation * way;
   const bool far_off = std::none_of(walls.all().begin(), walls.all().end(), [&](const Box& wall) {

@@ -11,6 +11,7 @@ namespace graspd {
 /// The bin's four walls and its floor, as boxes in the bin's frame.
 struct BinWalls {
   RigidTransform camera_from_bin;
+  RigidTransform bin_from_camera;
   std::array<Box, 5> walls;
   std::size_t count = 0;  ///< 0: there is no bin.
   Box inside;             ///< Between them, without a lid; meaningful only when there is a bin.

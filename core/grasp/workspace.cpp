@@ -12,6 +12,8 @@ GraspWorkspace carve_grasp_workspace(Arena& arena, const GraspCapacity& capacity
   workspace.rejected = FixedVector(arena.take<RejectedGrasp>(2 * std::size_t{capacity.instances}, "picks"));
   workspace.cloud = carve_cloud_map(arena, capacity.cloud_cells);
   workspace.hidden = carve_hidden_space(arena, capacity.cloud_cells);
+  workspace.explained = arena.take<Explained>(capacity.cloud_cells, "grasp cloud");
+  workspace.spheres = FixedVector(arena.take<BoundingSphere>(capacity.instances, "picks"));
   workspace.wall_points = FixedVector(arena.take<WallPoint>(bin_fit_points, "grasp cloud"));
   return workspace;
 }

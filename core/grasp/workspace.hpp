@@ -6,6 +6,7 @@
 #include "core/grasp/hidden_space.hpp"
 #include "core/grasp/parameters.hpp"
 #include "core/grasp/pick.hpp"
+#include "core/grasp/surroundings.hpp"
 #include "core/memory/arena.hpp"
 #include "core/memory/fixed_vector.hpp"
 
@@ -21,6 +22,8 @@ struct GraspWorkspace {
   FixedVector<RejectedGrasp> rejected;
   CloudMap cloud;
   HiddenSpace hidden;
+  std::span<Explained> explained;       ///< A cell of the cloud each.
+  FixedVector<BoundingSphere> spheres;  ///< Of the instances.
   FixedVector<WallPoint> wall_points;
 };
 

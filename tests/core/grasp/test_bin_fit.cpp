@@ -59,7 +59,7 @@ struct BinScene {
       frame.depth = measured;
     }
     GraspMemory memory;
-    fill_cloud_map(frame, 0.002F, 0.65F, memory.workspace.cloud);
+    begin_cloud_map(frame, 0.002F, 0.65F, memory.workspace.cloud);
     return fit_bin(memory.workspace.cloud, given, Vector3::UnitZ(), robot_from_camera, memory.workspace.wall_points);
   }
 };

@@ -49,7 +49,7 @@ float clearance_of(const DepthFrame& frame, const RigidTransform& camera_from_to
   Arena arena({bytes.data(), bytes.size()});
   CloudMap map = carve_cloud_map(arena, 320 * 240);
   EXPECT_FALSE(arena.exhausted());
-  fill_cloud_map(frame, parameters.sample_spacing, 0.6F, map);
+  begin_cloud_map(frame, parameters.sample_spacing, 0.6F, map);
   const HeldPart anything{RigidTransform{}, {Vector3::Constant(-10.0F), Vector3::Constant(10.0F)}};
   return sweep_clearance(map, {camera_from_tool, &gripper, Vector3(0.0F, 0.0F, -approach_distance)}, anything,
                          parameters);

@@ -15,9 +15,9 @@ struct HiddenSpaceTest : testing::Test {
     const Bank bank = part.bank();
     const DepthFrame frame = scene.render();
     GraspWorkspace& workspace = memory.workspace;
-    fill_cloud_map(frame, 0.002F, 0.6F, workspace.cloud);
-    fill_hidden_space(workspace.cloud, instances, {&bank, 1}, workspace.hidden);
-    return hidden_part_share(workspace.hidden, bank, walls, tool, open_gripper({}, 0.040F));
+    begin_cloud_map(frame, 0.002F, 0.6F, workspace.cloud);
+    begin_hidden_space(workspace.cloud, instances, {&bank, 1}, workspace.hidden);
+    return hidden_part_share(workspace.hidden, 0, walls, tool, open_gripper({}, 0.040F), 1.0F);
   }
   void add_box(float x, const Vector3& half_size, bool shiny) {
     scene.boxes.push_back({shift(x, 0.0F, 0.6F - half_size.z()), half_size, shiny});

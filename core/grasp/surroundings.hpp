@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/bank/bank.hpp"
+#include "core/detect/detections.hpp"
+#include "core/grasp/cloud_map.hpp"
+#include "core/grasp/hidden_space.hpp"
+#include "core/grasp/neighbours.hpp"
+#include "core/grasp/walls.hpp"
+
+namespace graspd {
+
+/// What is known of a measured point.
+enum class Explained : std::uint8_t { unasked, no, yes };
+
+/// What a grasp may collide with.
+struct GraspSurroundings {
+  const CloudMap* cloud = nullptr;
+  const HiddenSpace* hidden = nullptr;
+  std::span<Explained> explained;  ///< A cell of the cloud map each: see is_explained.
+  BinWalls walls;
+  std::span<const Instance> instances;
+  std::span<const BoundingSphere> spheres;  ///< Of the first instances.
+  std::span<const Bank> banks;
+  RigidTransform camera_from_robot;
+  Vector3 up = Vector3::UnitZ();  ///< Against gravity, camera frame.
+};
+
+}  // namespace graspd
