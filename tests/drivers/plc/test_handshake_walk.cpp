@@ -208,16 +208,16 @@ void walk_all(const Walk& walk, std::span<const Move> moves, int depth, std::int
   return all;
 }
 
-TEST(HandshakeWalk, EverySequenceOfSixEventsKeepsThePromises) {
+TEST(HandshakeWalk, EverySequenceOfSevenEventsKeepsThePromises) {
   std::int64_t steps = 0;
-  walk_all(fresh_walk(0, 0), moves(captured, toggle_next), 6, steps);
-  EXPECT_EQ(steps, 3'257'436);  // 12 + 12^2 + ... + 12^6
+  walk_all(fresh_walk(0, 0), moves(captured, toggle_next), 7, steps);
+  EXPECT_EQ(steps, 39'089'244);  // 12 + 12^2 + ... + 12^7
 }
 
-TEST(HandshakeWalk, EverySequenceOfSixEventsKeepsThePromisesWithTimeouts) {
+TEST(HandshakeWalk, EverySequenceOfSevenEventsKeepsThePromisesWithTimeouts) {
   std::int64_t steps = 0;
-  walk_all(fresh_walk(second + second / 2, second + second / 2), moves(captured, toggle_next), 6, steps);
-  EXPECT_EQ(steps, 3'257'436);
+  walk_all(fresh_walk(second + second / 2, second + second / 2), moves(captured, toggle_next), 7, steps);
+  EXPECT_EQ(steps, 39'089'244);
 }
 
 TEST(HandshakeWalk, EverySequenceOfFiveEventsKeepsThePromisesWithCoilsWrittenTogether) {
