@@ -228,16 +228,18 @@ SceneMap make_scene_map(const Camera& camera, int stride, std::span<MapCell> sto
 }
 
 void bin_frame(const DepthFrame& frame, const Execution& execution, SceneMap& map) {
+  constexpr auto lanes = static_cast<int>(lane_count);
   const int enough = std::max(1, map.stride * map.stride / 3);
   parallel_for(map.camera.height, execution, 8, [&](int v) {
     std::array<WholeBlock, lane_count> blocks;
-    const int whole = (v + 1) * map.stride <= frame.camera.height ? frame.camera.width / map.stride / 4 * 4 : 0;
+    const int whole_blocks = (v + 1) * map.stride <= frame.camera.height ? frame.camera.width / map.stride : 0;
+    const int in_lanes = whole_blocks / lanes * lanes;
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       cell = MapCell{};
-      if (u < whole && u % 4 == 0) blocks = read_blocks(frame, map.stride, u, v);
+      if (u < in_lanes && u % lanes == 0) blocks = read_blocks(frame, map.stride, u, v);
       const WholeBlock block =
-          u < whole ? blocks[static_cast<std::size_t>(u % 4)] : read_block(frame, map.stride, u, v);
+          u < in_lanes ? blocks[static_cast<std::size_t>(u % lanes)] : read_block(frame, map.stride, u, v);
       if (block.range.count < enough) continue;
       const float step = map.surface_step(block.range.low);
       if (block.range.high - block.range.low <= step) {
