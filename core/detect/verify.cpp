@@ -83,12 +83,12 @@ struct OutlineCount {
   int inconsistent = 0;
 };
 
-/// The confirmed cell nearest to the rim at (u, v), inwards from direction (du, dv): sensors round rims off, or do not
-/// measure them. Null when there is none within a few cells.
+/// The confirmed cell nearest to the rim at (u, v), which is not confirmed itself, inwards from direction (du, dv):
+/// sensors round rims off, or do not measure them. Null when there is none within a few cells.
 const MapCell* confirmed_inside(const SceneMap& map, const RenderedModel& model, std::span<const std::uint16_t> claimed,
                                 int u, int v, int du, int dv, float tolerance) {
   constexpr int deepest = 3;
-  for (int k = 0; k <= deepest; ++k) {
+  for (int k = 1; k <= deepest; ++k) {
     const int x = u - k * du;
     const int y = v - k * dv;
     if (!rendered_at(model, x, y)) return nullptr;
@@ -103,13 +103,11 @@ const MapCell* confirmed_inside(const SceneMap& map, const RenderedModel& model,
 }
 
 /// Looks beyond the rim at (u, v) in direction (du, dv): a surface that goes on there, as the extension
-/// of the one inside, contradicts the rim. Sensors round edges off, so the majority of a few cells decides.
-void judge_rim(const SceneMap& map, const RenderedModel& model, std::span<const std::uint16_t> claimed, int u, int v,
-               int du, int dv, float tolerance, OutlineCount& count) {
+/// of the cell `inside`, contradicts the rim. Sensors round edges off, so the majority of a few cells decides.
+void judge_rim(const SceneMap& map, const RenderedModel& model, std::span<const std::uint16_t> claimed,
+               const MapCell& inside, int u, int v, int du, int dv, float tolerance, OutlineCount& count) {
   constexpr int first = 2;
   constexpr int last = 6;
-  const MapCell* inside = confirmed_inside(map, model, claimed, u, v, du, dv, tolerance);
-  if (inside == nullptr) return;
   const float front = model.front[model.camera.index(u, v)];
   int seen = 0;
   int going_on = 0;
@@ -126,9 +124,9 @@ void judge_rim(const SceneMap& map, const RenderedModel& model, std::span<const 
     // What stands in front hides whether the surface ends.
     if (beyond.point.z() - front < -4.0F * tolerance) break;
     ++seen;
-    if (beyond.foreground == 0 || !inside->has_normal()) continue;
-    const bool on_plane = std::abs(inside->normal.dot(beyond.point - inside->point)) < tolerance;
-    going_on += on_plane && (!beyond.has_normal() || inside->normal.dot(beyond.normal) > 0.85F) ? 1 : 0;
+    if (beyond.foreground == 0 || !inside.has_normal()) continue;
+    const bool on_plane = std::abs(inside.normal.dot(beyond.point - inside.point)) < tolerance;
+    going_on += on_plane && (!beyond.has_normal() || inside.normal.dot(beyond.normal) > 0.85F) ? 1 : 0;
   }
   if (seen > 0) ++(2 * going_on > seen ? count.inconsistent : count.consistent);
 }
@@ -238,15 +236,19 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
       const int sides = open_sides(model, u, v);
       const bool rim = sides > 0;
       outline.length += sides;
-      if (rim && edges_judge) {
-        for (const auto& [du, dv] : directions) {
-          if (!rendered_at(model, u + du, v + dv)) judge_rim(map, model, claimed, u, v, du, dv, tolerance, outline);
-        }
-      }
       Verdict verdict = judge(cell, model, u, v, tolerance);
       // What a better instance explains hides this one, unless this one would stand before it.
       if (is_claimed(map, claimed, map_u, map_v) && verdict.verdict != CellVerdict::behind)
         verdict.verdict = CellVerdict::occluded;
+      if (rim && edges_judge) {
+        const MapCell* const here = verdict.verdict == CellVerdict::confirmed ? &cell : nullptr;
+        for (const auto& [du, dv] : directions) {
+          if (rendered_at(model, u + du, v + dv)) continue;
+          const MapCell* const inside =
+              here != nullptr ? here : confirmed_inside(map, model, claimed, u, v, du, dv, tolerance);
+          if (inside != nullptr) judge_rim(map, model, claimed, *inside, u, v, du, dv, tolerance, outline);
+        }
+      }
       // Pixels at an edge mix both sides, so a rim that seems to stand before free space says nothing.
       if (rim && verdict.verdict == CellVerdict::behind) verdict.verdict = CellVerdict::unmeasured;
       counts[static_cast<std::size_t>(verdict.verdict)] += 1.0F;
