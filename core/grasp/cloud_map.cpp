@@ -96,8 +96,7 @@ void begin_cloud_map(const DepthFrame& frame, float spacing, float reference_dep
 }
 
 void read_tile(const CloudMap& map, int column, int row) {
-  const std::size_t tile =
-      static_cast<std::size_t>(row) * static_cast<std::size_t>(map.tile_columns) + static_cast<std::size_t>(column);
+  const std::size_t tile = tile_number(map, column, row);
   Box& bounds = map.tiles[tile];
   bounds = {Vector3::Constant(unbounded), Vector3::Constant(-unbounded)};
   const int first = column * CloudMap::tile_size;

@@ -35,13 +35,17 @@ struct CloudMap {
 /// its corners that was. Cells beyond the edges of the frame, up to whole tiles, are not measured.
 void begin_cloud_map(const DepthFrame& frame, float spacing, float reference_depth, CloudMap& map);
 
+/// The number of a tile, in column `column` and row `row` of the tiles.
+[[nodiscard]] inline std::size_t tile_number(const CloudMap& map, int column, int row) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(map.tile_columns) + static_cast<std::size_t>(column);
+}
+
 /// Reads one tile, in column `column` and row `row` of the tiles.
 void read_tile(const CloudMap& map, int column, int row);
 
 /// The bounds of a tile, which is read before if it was not yet.
 [[nodiscard]] inline const Box& tile_bounds(const CloudMap& map, int column, int row) {
-  const std::size_t tile =
-      static_cast<std::size_t>(row) * static_cast<std::size_t>(map.tile_columns) + static_cast<std::size_t>(column);
+  const std::size_t tile = tile_number(map, column, row);
   if (map.known[tile] == 0) read_tile(map, column, row);
   return map.tiles[tile];
 }

@@ -50,15 +50,9 @@ float nearest_depth(const CloudMap& map, int left, int top) {
   return nearest;
 }
 
-/// A tile of the space, which is one of the map.
-std::size_t tile_number(const HiddenSpace& space, int column, int row) {
-  return static_cast<std::size_t>(row) * static_cast<std::size_t>(space.map->tile_columns) +
-         static_cast<std::size_t>(column);
-}
-
 /// Makes a tile, as if there were no instances, if it was not made yet.
 void make_tile(const HiddenSpace& space, int column, int row) {
-  std::uint8_t& known = space.known[tile_number(space, column, row)];
+  std::uint8_t& known = space.known[tile_number(*space.map, column, row)];
   if (known != 0) return;
   known = 1;
   static_cast<void>(tile_bounds(*space.map, column, row));
@@ -247,7 +241,7 @@ void begin_hidden_space(const CloudMap& map, std::span<const Instance> instances
   constexpr int size = HiddenSpace::tile_size;
   for (int v = 0; v < space.camera.height; ++v) {
     for (int column = 0; column < map.tile_columns; ++column) {
-      if (space.known[tile_number(space, column, v / size)] == 0) continue;
+      if (space.known[tile_number(map, column, v / size)] == 0) continue;
       const std::size_t first = space.camera.index(column * size, v);
       for (std::size_t i = first; i < first + size; ++i) {
         space.begins[i] = std::max(space.begins[i], -space.behind[i] - slack);
