@@ -17,17 +17,6 @@ constexpr std::int64_t exposure_slice_ns = 2'000'000;
 /// Taken by a heartbeat thread of Aravis.
 void note_lost(ArvDevice*, std::atomic<bool>* lost) { *lost = true; }
 
-/// The number behind Scan3dOutputMode; none when the camera has no such node or does not answer.
-std::optional<std::int64_t> read_output_mode(ArvCamera* camera) {
-  ArvGcNode* node = arv_device_get_feature(arv_camera_get_device(camera), "Scan3dOutputMode");
-  if (node == nullptr || !ARV_IS_GC_ENUMERATION(node)) return std::nullopt;
-  GError* problem = nullptr;
-  const std::int64_t mode = arv_gc_enumeration_get_int_value(ARV_GC_ENUMERATION(node), &problem);
-  if (problem == nullptr) return mode;
-  g_error_free(problem);
-  return std::nullopt;
-}
-
 }  // namespace
 
 GenicamSession::GenicamSession(GenicamDevice device, const GenicamOptions& options)
@@ -69,7 +58,7 @@ Status GenicamSession::set_up() {
     std::optional<ExposureEvents> events = ExposureEvents::subscribe(device_, options_.exposure_event);
     if (events) exposures_.emplace(std::move(*events));
   }
-  output_mode_ = read_output_mode(device_.handle());
+  output_mode_ = read_output_mode(device_);
   const Scan3dNodes nodes = read_scan3d_nodes(device_);
   if (lost_ || nodes.width == 0) return {StatusCode::camera_lost, "the camera stopped answering"};
   Result<Scan3dInterpretation> made = interpret_scan3d(nodes, options_.scan3d);
@@ -133,7 +122,7 @@ void GenicamSession::keep(ArvBuffer* buffer) {
 
 /// What a frame cannot tell of itself: the same format may hold depths or disparities.
 Status GenicamSession::check_mode() {
-  const std::optional<std::int64_t> mode = output_mode_ ? read_output_mode(device_.handle()) : std::nullopt;
+  const std::optional<std::int64_t> mode = output_mode_ ? read_output_mode(device_) : std::nullopt;
   if (!mode || mode == output_mode_) return {};
   changed_ = true;
   return {StatusCode::bad_frame, "Scan3dOutputMode is another than before; the nodes are read again"};
@@ -207,12 +196,19 @@ Status GenicamSession::accept(ArvBuffer* buffer) {
 }
 
 Status GenicamSession::take(std::int64_t deadline_ns, const std::atomic<bool>& wanted) {
+  if (Status arrived = await_frame(deadline_ns, wanted); !arrived.ok()) return arrived;
+  // Asked when the frame is there: whatever it was exposed with, it is not newer than the answer.
+  Status same = check_mode();
+  if (!same.ok()) discard();
+  return same;
+}
+
+Status GenicamSession::await_frame(std::int64_t deadline_ns, const std::atomic<bool>& wanted) {
   if (options_.trigger == CameraTrigger::software) {
     // What is there already was exposed before this request.
     discard();
     while (ArvBuffer* old = arv_stream_try_pop_buffer(stream_)) drop_late(old);
     if (Status awaited = await_late_frame(deadline_ns, wanted); !awaited.ok()) return awaited;
-    if (Status same = check_mode(); !same.ok()) return same;
     awaits_frame_ = true;
     await_exposure();
     if (Status triggered = device_.execute("TriggerSoftware"); !triggered.ok()) {

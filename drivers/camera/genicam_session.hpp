@@ -38,7 +38,7 @@ class GenicamSession {
 
   /// Waits for a frame that `options.trigger` allows, at the latest until `deadline_ns` or until `wanted`
   /// is false, and keeps it for decode(). Fails with camera_lost when none comes or control is lost, with
-  /// bad_frame when it came in part.
+  /// bad_frame when it came in part, or the camera's output mode is another than the session's.
   [[nodiscard]] Status take(std::int64_t deadline_ns, const std::atomic<bool>& wanted);
 
   /// Writes the frame that take() kept to `storage`, points `frame` at it, and gives the buffer back. Fails
@@ -69,6 +69,7 @@ class GenicamSession {
   GenicamSession(GenicamDevice device, const GenicamOptions& options);
   [[nodiscard]] Status set_up();
   [[nodiscard]] Status start_stream();
+  [[nodiscard]] Status await_frame(std::int64_t deadline_ns, const std::atomic<bool>& wanted);
   [[nodiscard]] Status check_mode();
   void await_exposure();
   void look_for_exposure();

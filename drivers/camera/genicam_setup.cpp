@@ -110,4 +110,14 @@ Scan3dNodes read_scan3d_nodes(const GenicamDevice& device) {
   return nodes;
 }
 
+std::optional<std::int64_t> read_output_mode(const GenicamDevice& device) {
+  ArvGcNode* node = arv_device_get_feature(arv_camera_get_device(device.handle()), "Scan3dOutputMode");
+  if (node == nullptr || !ARV_IS_GC_ENUMERATION(node)) return std::nullopt;
+  GError* problem = nullptr;
+  const std::int64_t mode = arv_gc_enumeration_get_int_value(ARV_GC_ENUMERATION(node), &problem);
+  if (problem == nullptr) return mode;
+  g_error_free(problem);
+  return std::nullopt;
+}
+
 }  // namespace graspd

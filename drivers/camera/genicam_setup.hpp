@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,5 +50,8 @@ inline constexpr std::size_t genicam_buffer_count = 3;
 
 /// Reads the Scan3d nodes of the component that is selected.
 [[nodiscard]] Scan3dNodes read_scan3d_nodes(const GenicamDevice& device);
+
+/// The number behind Scan3dOutputMode; none when the camera has no such node or does not answer.
+[[nodiscard]] std::optional<std::int64_t> read_output_mode(const GenicamDevice& device);
 
 }  // namespace graspd
