@@ -21,7 +21,7 @@ struct PairBatch {
   Column<std::uint32_t> neighbour;
   alignas(64) Column<float> x, y, z;  ///< Of the neighbour, as its normal.
   alignas(64) Column<float> normal_x, normal_y, normal_z;
-  alignas(64) Column<std::uint32_t> cell;   ///< Of the pair's feature, or no_ppf_cell
+  alignas(64) Column<std::uint32_t> cell;   ///< Of the pair's feature, or as many as the grid has,
   alignas(64) Column<std::uint32_t> alpha;  ///< and its turn as PpfEntry counts it.
 };
 
@@ -53,6 +53,7 @@ inline void append_neighbours(const PointColumns& points, const Vector3& centre,
 }
 
 /// Finds cell and turn of every pair of the batch: ppf_cell(ppf_feature()) and entry_alpha(alpha_of()), many at once.
+/// Rounding can put a pair at the very reach beyond the last cell.
 inline void find_cells(const PointColumns& points, const OrientedPoint& reference, const PpfGrid& grid_of_bank,
                        PairBatch& batch) {
   const PpfGrid grid = grid_of_bank;
@@ -60,6 +61,7 @@ inline void find_cells(const PointColumns& points, const OrientedPoint& referenc
   const Vector3 from = reference.position;
   const Vector3 normal = reference.normal;
   const std::size_t count = batch.count;
+  const std::uint32_t cells = grid.cell_count();
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t j = batch.neighbour[i];
     batch.x[i] = points.x[j];
@@ -72,7 +74,7 @@ inline void find_cells(const PointColumns& points, const OrientedPoint& referenc
   for (std::size_t i = 0; i < count; ++i) {
     const OrientedPoint second{{batch.x[i], batch.y[i], batch.z[i]},
                                {batch.normal_x[i], batch.normal_y[i], batch.normal_z[i]}};
-    batch.cell[i] = ppf_cell(ppf_feature({from, normal}, second), grid);
+    batch.cell[i] = std::min(ppf_cell(ppf_feature({from, normal}, second), grid), cells);
     batch.alpha[i] = entry_alpha(alpha_of(local, second.position));
   }
 }

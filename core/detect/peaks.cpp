@@ -47,7 +47,7 @@ std::size_t pick_peaks(const Bank& bank, const MatchParameters& parameters, cons
 }
 
 float peak_alpha(const Peak& peak, const VotingScratch& scratch) {
-  const std::uint16_t* const row = scratch.row(peak.reference);
+  const std::array<std::uint16_t, alpha_bins> row = scratch.votes_of(peak.reference);
   const auto smoothed = [&](std::size_t a) {
     return 2 * row[a] + row[(a + 1) % alpha_bins] + row[(a + alpha_bins - 1) % alpha_bins];
   };

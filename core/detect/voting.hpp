@@ -22,19 +22,21 @@ struct CellMeeting {
 
 /// Memory of the voting for one thread.
 struct VotingScratch {
-  std::span<std::uint16_t> accumulator;      ///< A row of alpha_bins for each reference of all views; see row().
+  /// A row of alpha_bins for each reference of all views, twice: nearly always a byte holds the votes of a bin, so that
+  /// twice as many are counted at once. See votes_of().
+  std::span<std::uint8_t> narrow_rows;
+  std::span<std::uint16_t> wide_rows;
+  bool wide = false;                         ///< Whether the votes of the last reference are in the wide rows.
   std::span<std::uint16_t> best_votes;       ///< For each reference twice the votes of its best turn, smoothed.
   std::span<std::uint32_t> meeting_of_cell;  ///< For each cell the number of its meeting from 1, not_met or no_entries.
-  std::span<CellMeeting> meetings;
-  VotingWork work;  ///< Of the matching in hand.
+  std::span<CellMeeting> meetings;           ///< Without any turn, but while votes are cast.
+  VotingWork work;                           ///< Of the matching in hand.
 
   static constexpr std::uint32_t not_met = 0;
   static constexpr std::uint32_t no_entries = 0xFFFFFFFFU;
 
-  /// The votes of a reference by turn. Before the first row and after the last there is one more, to be read only.
-  [[nodiscard]] std::uint16_t* row(std::size_t reference) const {
-    return accumulator.data() + (reference + 1) * alpha_bins;
-  }
+  /// The votes of a reference by turn.
+  [[nodiscard]] std::array<std::uint16_t, alpha_bins> votes_of(std::size_t reference) const;
 };
 
 [[nodiscard]] VotingScratch carve_voting_scratch(Arena& arena, const DetectCapacity& capacity);
@@ -42,8 +44,8 @@ struct VotingScratch {
 /// Makes the scratch ready for reference points of scenes that vote in this bank.
 void prepare_voting(const Bank& bank, VotingScratch& scratch);
 
-/// Lets the pairs of `reference` with its neighbours vote: leaves the votes in `accumulator` and `best_votes`, and adds
-/// to `work`. Pairs that repeat the vote of another are passed over (Hinterstoisser et al. 2016).
+/// Lets the pairs of `reference` with its neighbours vote: leaves the votes in `best_votes` and votes_of(), and
+/// adds to `work`. Pairs that repeat the vote of another are passed over (Hinterstoisser et al. 2016).
 using Voting = void (*)(const NeighbourGrid& scene, const Bank& bank, const OrientedPoint& reference,
                         VotingScratch& scratch);
 

@@ -51,7 +51,7 @@ double least_seconds(int repetitions, int threads, const Body& body) {
 struct Worker {
   MemoryBlock memory;
   VotingScratch scratch;
-  std::vector<std::uint16_t> cells;
+  std::vector<std::uint8_t> cells;
 };
 
 void print_rates(const char* what, double nanoseconds, double bare) {
@@ -94,13 +94,13 @@ Status run(const Options& options) {
   for (std::uint32_t& cell : random_cells) cell = static_cast<std::uint32_t>(random() % workers[0].cells.size());
 
   const auto count_bare = [&](int thread) {
-    std::vector<std::uint16_t>& cells = workers[static_cast<std::size_t>(thread)].cells;
+    std::vector<std::uint8_t>& cells = workers[static_cast<std::size_t>(thread)].cells;
     for (std::size_t round = 0; round < increments / random_cells.size(); ++round) {
       for (const std::uint32_t cell : random_cells) ++cells[cell];
     }
   };
   std::printf("accumulator: %zu references, %.0f KiB; %zu scene points\n", bank.reference_points.size(),
-              static_cast<double>(workers[0].cells.size()) * 2.0 / 1024.0, points.points.size());
+              static_cast<double>(workers[0].cells.size()) / 1024.0, points.points.size());
   for (int threads = 1; threads <= most_threads; threads *= 2) {
     const double bare = 1e9 * least_seconds(options.repetitions, threads, count_bare) / increments;
     std::printf("\n%d thread%s\n", threads, threads > 1 ? "s, each its own work" : "");
