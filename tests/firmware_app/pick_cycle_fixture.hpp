@@ -12,14 +12,9 @@
 #include "firmware_app/detection_session.hpp"
 #include "firmware_app/pick_cycle.hpp"
 #include "tests/firmware_app/scripted_plc.hpp"
+#include "tests/firmware_app/shared_bank.hpp"
 
 namespace graspd {
-
-/// The bank of the angle bar, made once for all tests of the program.
-inline const std::vector<std::byte>& shared_angle_bar_bank() {
-  static const std::vector<std::byte> bytes = angle_bar_bank();
-  return bytes;
-}
 
 /// What the journal says of an answer.
 inline std::string explained(const Answer& answer) {
