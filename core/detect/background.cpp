@@ -9,34 +9,58 @@ namespace graspd {
 
 namespace {
 
-/// Bridges the gaps of one line of the image with the nearer of the depths at their ends: in the shadow of
-/// a wall anything down to its rim may be wall.
-void bridge_line(SceneMap& map, bool along_rows, int line) {
-  const int length = along_rows ? map.camera.width : map.camera.height;
-  const auto depth = [&](int i) -> float& {
-    return along_rows ? map.at(i, line).background : map.at(line, i).background;
-  };
-  int last = -1;
-  for (int i = 0; i < length; ++i) {
-    if (depth(i) <= 0.0F) continue;
-    const float nearest = last < 0 ? depth(i) : std::min(depth(last), depth(i));
-    for (int gap = last + 1; gap < i; ++gap) depth(gap) = nearest;
-    last = i;
+/// Bridges the gaps of a row with the nearer of the depths at their ends: in the shadow of a wall anything down to its
+/// rim may be wall. Only a row in which nothing was measured stays empty.
+void bridge_row(std::span<MapCell> row) {
+  std::size_t begin = 0;  // Of the gap in hand.
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const float depth = row[i].background;
+    if (depth <= 0.0F) continue;
+    const float nearest = begin == 0 ? depth : std::min(row[begin - 1].background, depth);
+    for (; begin < i; ++begin) row[begin].background = nearest;
+    begin = i + 1;
   }
-  for (int i = last + 1; last >= 0 && i < length; ++i) depth(i) = depth(last);
+  for (std::size_t i = begin; begin > 0 && i < row.size(); ++i) row[i].background = row[begin - 1].background;
 }
 
-/// The nearest background around a cell: at a wall the depth of the background is not sharp.
-float nearest_background(const SceneMap& empty_bin, int u, int v) {
-  float nearest = 1e6F;
-  for (int dv = -1; dv <= 1; ++dv) {
-    for (int du = -1; du <= 1; ++du) {
-      if (!empty_bin.camera.contains(u + du, v + dv)) continue;
-      const float depth = empty_bin.at(u + du, v + dv).background;
-      if (depth > 0.0F) nearest = std::min(nearest, depth);
+/// Bridges empty rows likewise, once all others are full.
+void bridge_empty_rows(SceneMap& map) {
+  const auto row = [&](int v) { return &map.at(0, v); };
+  int begin = 0;
+  for (int v = 0; v <= map.camera.height; ++v) {
+    const bool end = v == map.camera.height;
+    if (!end && row(v)->background <= 0.0F) continue;
+    for (; begin < v; ++begin) {
+      for (int u = 0; u < map.camera.width; ++u) {
+        const float above = begin > 0 ? row(begin - 1)[u].background : 0.0F;
+        const float below = end ? above : row(v)[u].background;
+        row(begin)[u].background = begin > 0 ? std::min(above, below) : below;
+      }
     }
+    begin = v + 1;
   }
-  return nearest < 1e6F ? nearest : 0.0F;
+}
+
+/// Marks what does not stand out from the nearest background around each cell of row `v`: at a wall the depth of the
+/// background is not sharp.
+void judge_row(const SceneMap& empty_bin, int v, float margin, SceneMap& map) {
+  const MapCell* const here = &empty_bin.at(0, v);
+  const MapCell* const above = v > 0 ? here - map.camera.width : here;
+  const MapCell* const below = v + 1 < map.camera.height ? here + map.camera.width : here;
+  const auto nearest_in_column = [&](int u) {
+    return std::min(std::min(above[u].background, here[u].background), below[u].background);
+  };
+  float before = nearest_in_column(0);
+  float at = before;
+  for (int u = 0; u < map.camera.width; ++u) {
+    const float after = u + 1 < map.camera.width ? nearest_in_column(u + 1) : at;
+    const float background = std::min(std::min(before, at), after);
+    before = at;
+    at = after;
+    MapCell& cell = map.at(u, v);
+    const bool stands_out = background <= 0.0F || cell.point.z() < background - margin;
+    if (!stands_out) cell.foreground = 0;
+  }
 }
 
 /// A linear congruential sequence: the planes that are tried must not depend on the run.
@@ -102,20 +126,16 @@ SupportPlane polished(const SupportPlane& plane, std::span<const Vector3> sample
 }  // namespace
 
 void remove_background_by_frame(SceneMap& empty_bin, float margin, const Execution& execution, SceneMap& map) {
-  for (MapCell& cell : empty_bin.cells) cell.background = cell.point.z();
-  for (std::size_t i = 0; i < map.cells.size(); ++i) map.cells[i].background = empty_bin.cells[i].point.z();
-  for (int v = 0; v < empty_bin.camera.height; ++v) bridge_line(empty_bin, true, v);
-  if (execution.late()) return;
-  for (int u = 0; u < empty_bin.camera.width; ++u) bridge_line(empty_bin, false, u);
+  const auto width = static_cast<std::size_t>(map.camera.width);
   parallel_for(map.camera.height, execution, 8, [&](int v) {
-    for (int u = 0; u < map.camera.width; ++u) {
-      MapCell& cell = map.at(u, v);
-      if (!cell.measured()) continue;
-      const float background = nearest_background(empty_bin, u, v);
-      const bool stands_out = background <= 0.0F || cell.point.z() < background - margin;
-      if (!stands_out) cell.foreground = 0;
-    }
+    const std::span<MapCell> empty = empty_bin.cells.subspan(empty_bin.camera.index(0, v), width);
+    MapCell* const cells = &map.at(0, v);
+    for (std::size_t u = 0; u < width; ++u) cells[u].background = empty[u].background = empty[u].point.z();
+    bridge_row(empty);
   });
+  if (execution.late()) return;
+  bridge_empty_rows(empty_bin);
+  parallel_for(map.camera.height, execution, 8, [&](int v) { judge_row(empty_bin, v, margin, map); });
 }
 
 SupportPlane remove_background_by_plane(float margin, float slack, const Execution& execution, SceneMap& map) {

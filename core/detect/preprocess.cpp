@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/detect/edge_blur.hpp"
+#include "core/detect/normals.hpp"
 
 namespace graspd {
 

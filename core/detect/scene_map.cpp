@@ -147,69 +147,6 @@ bool supported(const SceneMap& map, int u, int v) {
   return support >= 3;
 }
 
-/// z = a x + b y + c by least squares about `origin`, over the cells near the plane so far.
-struct PlaneFit {
-  float a = 0;
-  float b = 0;
-  float c = 0;
-  float deviation = 0;  ///< Root mean square, along z.
-  int count = 0;
-};
-
-PlaneFit fit_plane(const SceneMap& map, int u, int v, int radius, const PlaneFit& guess, float gate) {
-  const Vector3 origin = map.at(u, v).point;
-  float sx = 0;
-  float sy = 0;
-  float sz = 0;
-  float sxx = 0;
-  float sxy = 0;
-  float syy = 0;
-  float sxz = 0;
-  float syz = 0;
-  float szz = 0;
-  int n = 0;
-  const int v_end = std::min(v + radius, map.camera.height - 1);
-  const int u_end = std::min(u + radius, map.camera.width - 1);
-  for (int y = std::max(v - radius, 0); y <= v_end; ++y) {
-    for (int x = std::max(u - radius, 0); x <= u_end; ++x) {
-      const Vector3& point = map.at(x, y).point;
-      if (point.z() <= 0.0F) continue;
-      const Vector3 d = point - origin;
-      if (std::abs(d.z() - (guess.a * d.x() + guess.b * d.y() + guess.c)) > gate) continue;
-      sx += d.x();
-      sy += d.y();
-      sz += d.z();
-      sxx += d.x() * d.x();
-      sxy += d.x() * d.y();
-      syy += d.y() * d.y();
-      sxz += d.x() * d.z();
-      syz += d.y() * d.z();
-      szz += d.z() * d.z();
-      ++n;
-    }
-  }
-  PlaneFit fit;
-  fit.count = n;
-  if (n < 5) return fit;
-  const float scale = 1.0F / static_cast<float>(n);
-  const float cxx = sxx - sx * sx * scale;
-  const float cxy = sxy - sx * sy * scale;
-  const float cyy = syy - sy * sy * scale;
-  const float cxz = sxz - sx * sz * scale;
-  const float cyz = syz - sy * sz * scale;
-  const float determinant = cxx * cyy - cxy * cxy;
-  if (determinant <= 1e-3F * cxx * cyy) {
-    fit.count = 0;
-    return fit;
-  }
-  fit.a = (cxz * cyy - cyz * cxy) / determinant;
-  fit.b = (cyz * cxx - cxz * cxy) / determinant;
-  fit.c = (sz - fit.a * sx - fit.b * sy) * scale;
-  const float czz = szz - sz * sz * scale;
-  fit.deviation = std::sqrt(std::max(0.0F, (czz - fit.a * cxz - fit.b * cyz) * scale));
-  return fit;
-}
-
 }  // namespace
 
 SceneMap make_scene_map(const Camera& camera, int stride, std::span<MapCell> storage) {
@@ -261,24 +198,6 @@ void bin_frame(const DepthFrame& frame, const Execution& execution, SceneMap& ma
     for (int u = 0; u < map.camera.width; ++u) {
       MapCell& cell = map.at(u, v);
       if (cell.foreground == 0) cell.point.setZero();
-    }
-  });
-}
-
-void fit_normals(int radius, const Execution& execution, SceneMap& map) {
-  parallel_for(map.camera.height, execution, 8, [&](int v) {
-    for (int u = 0; u < map.camera.width; ++u) {
-      MapCell& cell = map.at(u, v);
-      if (cell.foreground == 0) continue;
-      const float step = map.surface_step(cell.point.z());
-      const PlaneFit coarse = fit_plane(map, u, v, radius, {}, step * static_cast<float>(radius));
-      if (coarse.count < 5) continue;
-      const float gate = std::max(1.5F * coarse.deviation, 0.2F * map.footprint(cell.point.z()));
-      const PlaneFit fine = fit_plane(map, u, v, radius, coarse, gate);
-      const PlaneFit& fit = fine.count >= 5 ? fine : coarse;
-      cell.normal = Vector3(fit.a, fit.b, -1.0F).normalized();
-      // A cell seen from behind its fitted plane is no surface that the sensor could have measured.
-      if (cell.normal.dot(cell.point) >= 0.0F) cell.normal.setZero();
     }
   });
 }

@@ -54,8 +54,4 @@ struct SceneMap {
 /// once it is late is of no use.
 void bin_frame(const DepthFrame& frame, const Execution& execution, SceneMap& map);
 
-/// Fits a plane to the neighbourhood (`radius` cells) of each foreground cell, twice, the second time
-/// without the points off the first plane, so that normals stay sharp at creases.
-void fit_normals(int radius, const Execution& execution, SceneMap& map);
-
 }  // namespace graspd

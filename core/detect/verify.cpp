@@ -3,7 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+
+#include "core/detect/rendered_normal.hpp"
 
 namespace graspd {
 
@@ -13,30 +16,6 @@ namespace {
 enum class CellVerdict : std::uint8_t { unmeasured, confirmed, behind, occluded, contradicted };
 
 constexpr float same_normal = 0.6F;
-
-/// The normal of the rendered surface from its neighbours, or zero at its rim.
-Vector3 rendered_normal(const RenderedModel& model, int u, int v) {
-  const Camera& camera = model.camera;
-  const auto depth = [&](int x, int y) { return camera.contains(x, y) ? model.front[camera.index(x, y)] : 0.0F; };
-  const float here = depth(u, v);
-  const float step = 8.0F * here / camera.fx;
-  const auto along = [&](int du, int dv) -> Vector3 {
-    const float before = depth(u - du, v - dv);
-    const float after = depth(u + du, v + dv);
-    const bool before_fits = before > 0.0F && std::abs(before - here) < step;
-    const bool after_fits = after > 0.0F && std::abs(after - here) < step;
-    if (!before_fits && !after_fits) return Vector3::Zero();
-    const auto point = [&](int x, int y, float z) {
-      return camera.point(static_cast<float>(x), static_cast<float>(y), z);
-    };
-    const Vector3 from = before_fits ? point(u - du, v - dv, before) : point(u, v, here);
-    const Vector3 to = after_fits ? point(u + du, v + dv, after) : point(u, v, here);
-    return to - from;
-  };
-  const Vector3 normal = along(0, 1).cross(along(1, 0));
-  const float length = normal.norm();
-  return length > 0.0F ? Vector3(normal / length) : Vector3::Zero();
-}
 
 struct Verdict {
   CellVerdict verdict = CellVerdict::unmeasured;
@@ -50,8 +29,9 @@ Verdict judge(const MapCell& cell, const RenderedModel& model, int u, int v, flo
   const float gap = cell.point.z() - model.front[model.camera.index(u, v)];
   const CellVerdict apart = gap > 0.0F ? CellVerdict::behind : CellVerdict::occluded;
   if (std::abs(gap) * least_slope > tolerance) return {apart, std::abs(gap)};
-  const Vector3 normal = rendered_normal(model, u, v);
-  const Vector3 ray = model.camera.point(static_cast<float>(u), static_cast<float>(v), 1.0F);
+  const Rays rays(model.camera, u, v);
+  const Vector3 normal = rendered_normal(model, rays, u, v);
+  const Vector3 ray = rays.point(0, 0, 1.0F);
   const float slope = normal.isZero() ? 1.0F : std::max(least_slope, std::abs(normal.dot(ray)) / ray.norm());
   const float distance = std::abs(gap) * slope;
   if (distance > tolerance) return {apart, distance};
@@ -66,10 +46,16 @@ bool rendered_at(const RenderedModel& model, int u, int v) {
   return model.camera.contains(u, v) && model.front[model.camera.index(u, v)] > 0.0F;
 }
 
-/// How many of the four neighbours of a cell the model does not cover.
-int open_sides(const RenderedModel& model, int u, int v) {
-  return static_cast<int>(std::count_if(directions.begin(), directions.end(),
-                                        [&](const auto& d) { return !rendered_at(model, u + d[0], v + d[1]); }));
+/// In which of the four directions the model does not cover the neighbour of a cell, a bit for each.
+unsigned open_sides(const RenderedModel& model, int u, int v) {
+  const Camera& camera = model.camera;
+  const float* const cell = &model.front[camera.index(u, v)];
+  const bool right = u + 1 == camera.width || cell[1] == 0.0F;
+  const bool left = u == 0 || cell[-1] == 0.0F;
+  const bool below = v + 1 == camera.height || cell[camera.width] == 0.0F;
+  const bool above = v == 0 || cell[-camera.width] == 0.0F;
+  static_assert(directions[0][0] == 1 && directions[1][0] == -1 && directions[2][1] == 1 && directions[3][1] == -1);
+  return (right ? 1U : 0U) | (left ? 2U : 0U) | (below ? 4U : 0U) | (above ? 8U : 0U);
 }
 
 bool is_claimed(const SceneMap& map, std::span<const std::uint16_t> claimed, int u, int v) {
@@ -233,17 +219,18 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
         below += front > limit ? 0.5F : 0.0F;
         below += !model.back.empty() && model.back[index] > limit ? 0.5F : 0.0F;
       }
-      const int sides = open_sides(model, u, v);
-      const bool rim = sides > 0;
-      outline.length += sides;
+      const unsigned sides = open_sides(model, u, v);
+      const bool rim = sides != 0;
+      outline.length += std::popcount(sides);
       Verdict verdict = judge(cell, model, u, v, tolerance);
       // What a better instance explains hides this one, unless this one would stand before it.
       if (is_claimed(map, claimed, map_u, map_v) && verdict.verdict != CellVerdict::behind)
         verdict.verdict = CellVerdict::occluded;
       if (rim && edges_judge) {
         const MapCell* const here = verdict.verdict == CellVerdict::confirmed ? &cell : nullptr;
-        for (const auto& [du, dv] : directions) {
-          if (rendered_at(model, u + du, v + dv)) continue;
+        for (std::size_t side = 0; side < directions.size(); ++side) {
+          if ((sides >> side & 1U) == 0) continue;
+          const auto [du, dv] = directions[side];
           const MapCell* const inside =
               here != nullptr ? here : confirmed_inside(map, model, claimed, u, v, du, dv, tolerance);
           if (inside != nullptr) judge_rim(map, model, claimed, *inside, u, v, du, dv, tolerance, outline);
