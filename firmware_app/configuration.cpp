@@ -54,7 +54,7 @@ Result<Configuration> read_configuration(const std::string& path) {
     root.complain("region", "may be given at most " + std::to_string(request_region::most_numbers) + " times");
   }
   read_limits_section(root.table("limits"), configuration.detect.capacity, grasp.capacity);
-  read_grasp_section(root.table("grasp"), grasp.parameters);
+  read_grasp_section(root.table("grasp"), grasp);
   read_bin_section(root.table("bin"), grasp.parameters.bin);
   read_tools(root, grasp.parameters.tools);
   read_modbus_section(root.table("modbus"), configuration);

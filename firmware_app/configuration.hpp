@@ -45,6 +45,7 @@ struct DetectSettings {
 struct GraspSettings {
   GraspParameters parameters;
   GraspCapacity capacity;
+  bool count_all = false;  ///< Ask every instance for a grasp before the PLC has its answer.
 };
 
 /// Who asks whom.

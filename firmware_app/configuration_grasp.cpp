@@ -67,7 +67,9 @@ void read_avoid(SettingsTable table, AvoidParameters& avoid) {
 
 }  // namespace
 
-void read_grasp_section(SettingsTable table, GraspParameters& grasp) {
+void read_grasp_section(SettingsTable table, GraspSettings& settings) {
+  GraspParameters& grasp = settings.parameters;
+  table.read("count_all", settings.count_all);
   read_direction(table, "up", grasp.up);
   read_direction(table, "preferred_closing", grasp.preferred_closing);
   table.read("maximum_tilt", grasp.maximum_tilt, 0, 180, radians_per_degree);

@@ -16,7 +16,7 @@ void read_calibration_section(SettingsTable table, Configuration& configuration)
 void read_detect_section(SettingsTable table, const RigidTransform& robot_from_camera, DetectSettings& detect);
 void read_region_sections(std::span<const SettingsTable> tables, std::vector<RequestBox>& regions);
 void read_limits_section(SettingsTable table, DetectCapacity& detect, GraspCapacity& grasp);
-void read_grasp_section(SettingsTable table, GraspParameters& grasp);
+void read_grasp_section(SettingsTable table, GraspSettings& settings);
 void read_bin_section(SettingsTable table, BinParameters& bin);
 /// Every [[tool]]; without any, `tools` stays as it is.
 void read_tools(SettingsTable& root, ToolSet& tools);

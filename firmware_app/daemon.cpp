@@ -47,6 +47,7 @@ PickSettings pick_settings(const Configuration& configuration) {
   PickSettings settings;
   settings.detect = configuration.detect.parameters;
   settings.grasp = configuration.grasp.parameters;
+  settings.count_all = configuration.grasp.count_all;
   settings.regions = configuration.regions;
   settings.calibrated = configuration.calibrated || configuration.camera_on_flange;
   settings.camera_on_flange = configuration.camera_on_flange;

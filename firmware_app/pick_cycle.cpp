@@ -101,6 +101,11 @@ ListedPick listed_pick(const Capture& capture, const Pick& pick) {
   return entry;
 }
 
+/// How far the choice must come to answer a request when `given` picks were given before.
+std::size_t picks_needed(const PickSettings& settings, const PlcRequest& request, std::size_t given) {
+  return settings.count_all ? std::numeric_limits<std::size_t>::max() : given + request.results_wanted;
+}
+
 /// Puts the picks that are next in line into the block, as many as are wanted, and counts them as given
 /// unless this is a dry run.
 void put_picks(PickCycle& cycle, const PlcRequest& request, ResultBlock& block) {
@@ -121,7 +126,7 @@ void put_picks(PickCycle& cycle, const PlcRequest& request, ResultBlock& block) 
   block.grasp = first.grasp;
   block.tool = first.tool;
   block.score = first.score;
-  block.remaining = register_value(left.size() - count);
+  block.remaining = register_value(left.size() - count + capture.picks.unlisted);
   block.result_index = register_value(capture.given + 1);
   block.opening = first.opening;
   block.pick = first.pick;
@@ -143,9 +148,11 @@ void avoid_last_place(PickCycle& cycle) {
 }
 
 /// Takes what is too near to avoided places, or needs another tool than the one wanted, out of the picks that the PLC
-/// was not told of yet.
+/// was not told of yet; every instance is asked for its pick before.
 void drop_unwanted_picks(PickCycle& cycle, const PlcRequest& request) {
+  if (request.tool == 0 && !request.avoid_last_place) return;
   Capture& capture = cycle.capture;
+  capture.picks = find_picks(cycle.memory.grasp, std::numeric_limits<std::size_t>::max());
   FixedVector<Pick>& picks = cycle.memory.grasp.picks;
   auto* const end = std::remove_if(picks.begin() + capture.given, picks.end(), [&](const Pick& pick) {
     return (request.tool != 0 && pick.tool != request.tool) ||
@@ -153,7 +160,6 @@ void drop_unwanted_picks(PickCycle& cycle, const PlcRequest& request) {
                                                    cycle.settings.grasp.avoid.radius));
   });
   picks.truncate(static_cast<std::size_t>(end - picks.begin()));
-  capture.picks.picks = picks.span();
 }
 
 ResultBlock begin_block(const PlcRequest& request) {
@@ -213,8 +219,9 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
       detect(capture.frame, detect_request(cycle, request), resolved.detect, cycle.memory.detect, capture.detections);
   if (!detected.ok()) return failed(cycle, request, detected);
   const std::int64_t found = now();
-  capture.picks = choose_pick(capture.frame, capture.detections, capture.banks, resolved.grasp, cycle.memory.grasp,
-                              cycle.memory.avoided.places());
+  begin_choice(capture.frame, capture.detections, capture.banks, resolved.grasp, cycle.memory.grasp,
+               cycle.memory.avoided.places());
+  capture.picks = find_picks(cycle.memory.grasp, picks_needed(cycle.settings, request, 0));
   cycle.memory.avoided.age();
   capture.answered = true;
 
@@ -235,9 +242,14 @@ Answer answer_next(PickCycle& cycle, const PlcRequest& request) {
   Capture& capture = cycle.capture;
   if (Status served = check_served(request, cycle.settings); !served.ok()) return failed(cycle, request, served);
   if (request.avoid_last_place) avoid_last_place(cycle);
-  if (capture.answered) drop_unwanted_picks(cycle, request);
   Answer answer{begin_block(request), {}};
-  if (capture.answered) put_verdict(capture, answer.block);
+  if (capture.answered) {
+    const std::int64_t start = cycle.settings.now_ns();
+    drop_unwanted_picks(cycle, request);
+    capture.picks = find_picks(cycle.memory.grasp, picks_needed(cycle.settings, request, capture.given));
+    set_time(answer.block, BlockStage::grasp, cycle.settings.now_ns() - start);
+    put_verdict(capture, answer.block);
+  }
   if (capture.answered && capture.given < capture.picks.picks.size()) {
     put_picks(cycle, request, answer.block);
   } else {

@@ -24,20 +24,22 @@ struct PickSettings {
   RigidTransform flange_from_camera;  ///< Only with camera_on_flange.
   RigidTransform robot_from_box;      ///< The box of BackgroundMode::box.
   bool keeps_snapshots = false;       ///< A request may ask to keep the frame.
+  bool count_all = false;             ///< Ask every instance for a grasp before answering.
   float minimum_score = -1.0F;        ///< When the PLC asks for none; negative: the bank's own.
   std::int64_t deadline_ns = 0;       ///< After the trigger; 0: none.
   std::int64_t maximum_age_ns = 0;
   std::int64_t (*now_ns)() = nullptr;  ///< Monotonic clock.
 };
 
-/// What became of the last capture; `next` draws on it.
+/// What became of the last capture; `next` draws on it, and goes on with the choice of grasps that lies in
+/// WorkingMemory::grasp.
 struct Capture {
   bool answered = false;  ///< Everything below belongs to one frame and is verified.
   DepthFrame frame;
   RigidTransform robot_from_camera;  ///< At the exposure.
   std::span<const Bank> banks;
   Detections detections;
-  PickResult picks;
+  PickResult picks;       ///< As far as the choice has come.
   std::size_t given = 0;  ///< Picks that the PLC has been told of.
 };
 

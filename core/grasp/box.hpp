@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "core/geometry/rigid_transform.hpp"
@@ -30,6 +31,13 @@ struct Box {
 
 [[nodiscard]] inline Box grown(const Box& box, float margin) {
   return {box.lower - Vector3::Constant(margin), box.upper + Vector3::Constant(margin)};
+}
+
+/// What is left of a box along z, down from its upper end, in `length` metres at most.
+[[nodiscard]] inline Box tip_of(const Box& box, float length) {
+  Box tip = box;
+  tip.lower.z() = std::max(tip.lower.z(), tip.upper.z() - length);
+  return tip;
 }
 
 /// The box that holds `box` before and after it moved by `motion`.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/grasp/collision.hpp"
+#include "core/grasp/hidden_part.hpp"
 #include "core/grasp/neighbours.hpp"
 #include "core/grasp/ranking.hpp"
 #include "core/grasp/unexplained.hpp"

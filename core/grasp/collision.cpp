@@ -53,8 +53,7 @@ bool sweep_collides(const CloudMap& map, const Sweep& sweep, const HeldPart& par
   const std::span<const GripperPiece> pieces = sweep.gripper->all();
   // Most collisions are those of the tips where they come to rest, and those are found fast.
   const bool tips_collide = std::any_of(pieces.begin(), pieces.end(), [&](const GripperPiece& piece) {
-    Box tip = grown(piece.box, parameters.minimum_clearance);
-    tip.lower.z() = std::max(tip.lower.z(), tip.upper.z() - tip_length);
+    const Box tip = tip_of(grown(piece.box, parameters.minimum_clearance), tip_length);
     return piece.touches_part && collides(piece, tip, Vector3::Zero());
   });
   return tips_collide || std::any_of(pieces.begin(), pieces.end(), [&](const GripperPiece& piece) {

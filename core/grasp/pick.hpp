@@ -59,11 +59,12 @@ struct RejectedGrasp {
   GraspRejection reason = GraspRejection::none;
 };
 
-/// What was cut; a result with a flag is right, but a better pick may have been left out.
+/// What was cut: the result is right, but a better pick may have been left out. And what is still open.
 enum PickFlag : std::uint32_t {
-  flag_grasps_cut = 1U << 0U,  ///< An instance had more grasps than the workspace holds, or than its share of the
-                               ///< checks: those ranked last went.
-  flag_picks_cut = 1U << 1U,   ///< More instances than the workspace holds: those with the lowest scores went.
+  flag_grasps_cut = 1U << 0U,     ///< An instance had more grasps than the workspace holds, or than its share of the
+                                  ///< checks: those ranked last went.
+  flag_picks_cut = 1U << 1U,      ///< More instances than the workspace holds: those with the lowest scores went.
+  flag_not_all_asked = 1U << 2U,  ///< Of some instances it is not known whether they can be picked: nobody asked yet.
 };
 
 /// Where the bin stands in one frame.
@@ -75,16 +76,20 @@ struct BinFit {
   float residual = 0;  ///< Metres: root mean square of what the measured points of the inner faces disagree by.
 };
 
-/// The outcome of one choice, in memory of the workspace: valid until the next one.
+/// The outcome of one choice as far as it has come, in memory of the workspace: valid until it goes on or the next one
+/// begins.
 struct PickResult {
   bool found = false;
-  Pick best;                                ///< The first of `picks`; meaningful only when `found`.
-  std::span<const Pick> picks;              ///< The best pick of each pickable instance, in the order to pick them.
-  std::span<const GraspRejection> reasons;  ///< One for each instance; `none` for the pickable ones.
+  Pick best;                    ///< The first of `picks`; meaningful only when `found`.
+  std::span<const Pick> picks;  ///< The best pick of each pickable instance, in the order to pick them; the first ones
+                                ///< when not all were asked for.
+  std::span<const GraspRejection> reasons;  ///< One for each instance; `none` for the pickable ones, and for those of
+                                            ///< which nothing is known yet.
   std::span<const RejectedGrasp> rejected;  ///< Grasps that failed when they were looked up in the frame; as many as
                                             ///< the workspace holds.
   BinFit bin;                               ///< Meaningful only with BinParameters::fitted.
-  std::uint32_t pickable = 0;               ///< Instances with a pick.
+  std::uint32_t pickable = 0;               ///< Instances that can be picked; at least, with flag_not_all_asked.
+  std::uint32_t unlisted = 0;               ///< Those of them whose picks are not in `picks` yet.
   std::uint32_t checks = 0;                 ///< Grasps that were looked up in the frame.
   std::array<std::uint32_t, grasp_rejection_count> rejections{};  ///< Instances by reason.
   GraspRejection main_reason =

@@ -1,10 +1,11 @@
 #include "core/grasp/planner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
-#include "core/grasp/checks.hpp"
 #include "core/grasp/ranking.hpp"
+#include "core/grasp/search.hpp"
 
 namespace graspd {
 namespace {
@@ -15,67 +16,31 @@ float height_of(const Instance& instance, std::span<const Bank> banks, const Gra
   return up.dot(parameters.robot_from_camera * (instance.camera_from_part * banks[instance.bank].part->centre));
 }
 
-Pick pick_of(const GraspCandidate& candidate, const GraspCheck& check, const PartGrasp& grasp,
-             const GraspTarget& target, const GraspParameters& parameters) {
-  Pick pick;
-  pick.robot_from_tool = candidate.robot_from_tool;
-  pick.robot_from_approach = approach_of(candidate.robot_from_tool, parameters.approach_distance);
-  pick.robot_from_part = candidate.robot_from_part;
-  pick.opening = check.opening;
-  pick.score = target.score;
-  pick.tilt = candidate.tilt;
-  pick.clearance = check.clearance;
-  pick.value = grasp_value(
-      {grasp.priority, target.score, candidate.tilt, check.clearance, target.drop, candidate.turn, check.hidden},
-      parameters.weights, parameters.collision.clearance_range);
-  pick.grasp = grasp.number;
-  pick.tool = parameters.tools.tools[candidate.tool].number;
-  return pick;
+/// No grasp of an instance is worth more than this, at whatever turn it lies.
+float bound_of(const Bank& bank, const GraspTarget& target, const GraspParameters& parameters) {
+  std::int32_t priority = std::numeric_limits<std::int32_t>::lowest();
+  for (const PartGrasp& grasp : bank.grasps) priority = std::max(priority, grasp.priority);
+  const float range = parameters.collision.clearance_range;
+  const float bound =
+      grasp_value({priority, target.score, 0.0F, range, target.drop, 0.0F, 0.0F}, parameters.weights, range);
+  return std::isnan(bound) ? -std::numeric_limits<float>::infinity() : bound;
 }
 
-/// The best grasp of one instance, and what it took to find it.
-struct Search {
-  GraspRejection reason = GraspRejection::none;
-  Pick best;
-  std::uint32_t checks = 0;
-  bool cut = false;  ///< It had candidates left when its share of the checks was used up.
-};
+/// Whether a search can still give a pick that is not listed.
+bool is_in_line(const GraspSearch& search) {
+  return search.phase == SearchPhase::settled ? search.found : search.phase != SearchPhase::listed;
+}
 
-/// The best of the workspace's candidates that passes all tests, with `share` checks at most. They come in the order of
-/// the value that they would have with all the clearance that counts, so the search ends at the first that could not be
-/// better even so.
-Search best_free(const GraspSurroundings& around, std::size_t instance, const GraspTarget& target,
-                 const GraspParameters& parameters, std::uint32_t share, GraspWorkspace& workspace) {
-  const Bank& bank = around.banks[around.instances[instance].bank];
-  Search search;
-  bool found = false;
-  for (const GraspCandidate& candidate : workspace.candidates) {
-    if (found && candidate.value <= search.best.value) break;
-    if (search.checks == share) {
-      search.cut = true;
-      break;
-    }
-    ++search.checks;
-    const PartGrasp& grasp = bank.grasps[candidate.grasp];
-    const float needed = found ? search.best.value : -std::numeric_limits<float>::infinity();
-    const GraspCheck check = check_grasp(around, instance, candidate, parameters, needed);
-    if (check.beaten) continue;
-    if (check.reason != GraspRejection::none) {
-      if (!found) search.reason = furthest(search.checks == 1 ? check.reason : search.reason, check.reason);
-      static_cast<void>(
-          workspace.rejected.push_back({candidate.robot_from_tool, check.opening, static_cast<std::uint32_t>(instance),
-                                        grasp.number, parameters.tools.tools[candidate.tool].number, check.reason}));
-      continue;
-    }
-    const Pick pick = pick_of(candidate, check, grasp, target, parameters);
-    if (!found || pick.value > search.best.value) search.best = pick;
-    found = true;
-    search.reason = GraspRejection::none;
+/// The instance whose next pick may be the best of all: once it is settled, it is. Their number when none is left.
+std::size_t foremost(std::span<const GraspSearch> searches) {
+  std::size_t best = searches.size();
+  for (std::size_t i = 0; i < searches.size(); ++i) {
+    if (!is_in_line(searches[i])) continue;
+    const bool first = best == searches.size() || searches[i].rank > searches[best].rank ||
+                       (searches[i].rank == searches[best].rank && searches[i].bound > searches[best].bound);
+    if (first) best = i;
   }
-  // Without a share nothing is known, and a grasp that was not looked up is not free.
-  if (!found && search.checks == 0) search.reason = GraspRejection::collision;
-  search.best.instance = static_cast<std::uint32_t>(instance);
-  return search;
+  return best;
 }
 
 /// The reason of most instances; of equally frequent ones that which is declared first.
@@ -94,91 +59,120 @@ float reference_depth(std::span<const Instance> instances) {
   return depth;
 }
 
+/// What is known of a choice.
+PickResult result_of(const GraspWorkspace& workspace) {
+  PickResult result;
+  result.picks = workspace.picks.span();
+  result.reasons = workspace.reasons.span();
+  result.rejected = workspace.rejected.span();
+  result.bin = workspace.choice.bin;
+  result.checks = workspace.choice.checks;
+  result.flags = workspace.choice.flags;
+  for (const GraspSearch& search : workspace.searches.span()) {
+    if (search.found) {
+      ++result.pickable;
+      if (search.phase != SearchPhase::listed) ++result.unlisted;
+    } else if (search.phase == SearchPhase::settled) {
+      ++result.rejections[static_cast<std::size_t>(search.reason)];
+    } else {
+      result.flags |= flag_not_all_asked;
+    }
+  }
+  result.main_reason = main_reason(result);
+  result.found = !result.picks.empty();
+  if (result.found) result.best = result.picks.front();
+  return result;
+}
+
 }  // namespace
 
-PickResult choose_pick(const DepthFrame& frame, const Detections& detections, std::span<const Bank> banks,
-                       const GraspParameters& parameters, GraspWorkspace& workspace,
-                       std::span<const AvoidedPlace> avoided) {
-  PickResult result;
+void begin_choice(const DepthFrame& frame, const Detections& detections, std::span<const Bank> banks,
+                  const GraspParameters& parameters, GraspWorkspace& workspace, std::span<const AvoidedPlace> avoided) {
   workspace.picks.clear();
   workspace.reasons.clear();
-  workspace.ranks.clear();
+  workspace.searches.clear();
   workspace.rejected.clear();
   workspace.spheres.clear();
+  workspace.avoided.clear();
+  for (const AvoidedPlace& place : avoided) workspace.avoided.push_back(place);
+  GraspChoice& choice = workspace.choice;
+  choice = {};
+  choice.parameters = parameters;
   const std::size_t count = std::min(detections.instances.size(), workspace.picks.capacity());
-  if (count < detections.instances.size()) result.flags |= flag_picks_cut;
-  const std::span<const Instance> instances = detections.instances.first(count);
-  if (count > 0) {
-    begin_cloud_map(frame, parameters.collision.sample_spacing, reference_depth(instances), workspace.cloud);
-    begin_hidden_space(workspace.cloud, detections.instances, banks, workspace.hidden);
-  }
+  if (count < detections.instances.size()) choice.flags |= flag_picks_cut;
+  if (count == 0) return;
 
+  const std::span<const Instance> instances = detections.instances.first(count);
+  begin_cloud_map(frame, parameters.collision.sample_spacing, reference_depth(instances), workspace.cloud);
+  begin_hidden_space(workspace.cloud, detections.instances, banks, workspace.hidden);
   const Vector3 up = up_direction(parameters);
-  const RigidTransform camera_from_robot = inverse(parameters.robot_from_camera);
   BinParameters bin = parameters.bin;
   const bool looks_for_bin = bin.present && bin.fitted;
-  if (looks_for_bin && count > 0) {
-    result.bin = fit_bin(workspace.cloud, bin, up, parameters.robot_from_camera, workspace.wall_points);
-    bin.robot_from_bin = result.bin.robot_from_bin;
+  if (looks_for_bin) {
+    choice.bin = fit_bin(workspace.cloud, bin, up, parameters.robot_from_camera, workspace.wall_points);
+    bin.robot_from_bin = choice.bin.robot_from_bin;
   }
   // Those that the workspace cuts are in the way all the same.
   for (const Instance& instance : instances)
     static_cast<void>(workspace.spheres.push_back(bounding_sphere(instance, banks)));
   const std::span<Explained> explained = workspace.explained.first(workspace.cloud.depth.size());
   std::fill(explained.begin(), explained.end(), Explained::unasked);
-  const GraspSurroundings around{&workspace.cloud,
-                                 &workspace.hidden,
-                                 explained,
-                                 bin_walls(bin, up, camera_from_robot),
-                                 detections.instances,
-                                 workspace.spheres.span(),
-                                 banks,
-                                 camera_from_robot,
-                                 camera_from_robot.rotation * up};
+  const RigidTransform camera_from_robot = inverse(parameters.robot_from_camera);
+  choice.around = {&workspace.cloud,
+                   &workspace.hidden,
+                   explained,
+                   bin_walls(bin, up, camera_from_robot),
+                   detections.instances,
+                   workspace.spheres.span(),
+                   banks,
+                   camera_from_robot,
+                   camera_from_robot.rotation * up};
   float highest = -std::numeric_limits<float>::max();
   for (const Instance& instance : instances) {
     highest = std::max(highest, height_of(instance, banks, parameters, up));
   }
-  std::uint32_t checks_left = workspace.capacity.checks;
+  choice.checks_left = workspace.capacity.checks;
   for (std::size_t i = 0; i < count; ++i) {
     const Instance& instance = instances[i];
-    const GraspTarget target{parameters.robot_from_camera * instance.camera_from_part, instance.score,
-                             highest - height_of(instance, banks, parameters, up)};
-    workspace.ranks.push_back(order_rank(instances, banks, i, target.drop, parameters));
-    Search search;
-    if (looks_for_bin && !result.bin.found) {
+    GraspSearch search;
+    search.target = {parameters.robot_from_camera * instance.camera_from_part, instance.score,
+                     highest - height_of(instance, banks, parameters, up)};
+    search.rank = order_rank(instances, banks, i, search.target.drop, parameters);
+    search.bound = bound_of(banks[instance.bank], search.target, parameters);
+    if (looks_for_bin && !choice.bin.found) {
+      search.phase = SearchPhase::settled;
       search.reason = GraspRejection::no_bin;
     } else {
-      search.reason = grasp_candidates(banks[instance.bank], target, parameters, avoided, workspace.candidates);
-      if (workspace.candidates.dropped() > 0) result.flags |= flag_grasps_cut;
+      ++choice.unasked;
     }
-    if (search.reason == GraspRejection::none) {
-      const auto share = static_cast<std::uint32_t>(checks_left / (count - i));
-      search = best_free(around, i, target, parameters, share, workspace);
-      checks_left -= search.checks;
-      result.checks += search.checks;
-      if (search.cut) result.flags |= flag_grasps_cut;
-      if (search.reason == GraspRejection::none) workspace.picks.push_back(search.best);
-    }
+    workspace.searches.push_back(search);
     workspace.reasons.push_back(search.reason);
-    ++result.rejections[static_cast<std::size_t>(search.reason)];
   }
-  std::sort(workspace.picks.begin(), workspace.picks.end(), [&](const Pick& a, const Pick& b) {
-    const std::int32_t rank_a = workspace.ranks[a.instance];
-    const std::int32_t rank_b = workspace.ranks[b.instance];
-    if (rank_a != rank_b) return rank_a > rank_b;
-    return a.value != b.value ? a.value > b.value : a.instance < b.instance;
-  });
+}
 
-  result.picks = workspace.picks.span();
-  result.reasons = workspace.reasons.span();
-  result.rejected = workspace.rejected.span();
-  result.pickable = static_cast<std::uint32_t>(result.picks.size());
-  result.rejections[static_cast<std::size_t>(GraspRejection::none)] = 0;
-  result.main_reason = main_reason(result);
-  result.found = result.pickable > 0;
-  if (result.found) result.best = result.picks.front();
-  return result;
+PickResult find_picks(GraspWorkspace& workspace, std::size_t wanted) {
+  while (workspace.picks.size() < wanted) {
+    const std::size_t instance = foremost(workspace.searches.span());
+    if (instance == workspace.searches.size()) break;
+    GraspSearch& search = workspace.searches[instance];
+    if (search.phase == SearchPhase::settled) {
+      workspace.picks.push_back(search.best);
+      search.phase = SearchPhase::listed;
+    } else if (search.phase == SearchPhase::unasked) {
+      begin_search(workspace, instance);
+    } else {
+      check_next(workspace, instance);
+    }
+    if (search.phase == SearchPhase::settled) workspace.reasons[instance] = search.reason;
+  }
+  return result_of(workspace);
+}
+
+PickResult choose_pick(const DepthFrame& frame, const Detections& detections, std::span<const Bank> banks,
+                       const GraspParameters& parameters, GraspWorkspace& workspace,
+                       std::span<const AvoidedPlace> avoided) {
+  begin_choice(frame, detections, banks, parameters, workspace, avoided);
+  return find_picks(workspace, workspace.picks.capacity());
 }
 
 }  // namespace graspd

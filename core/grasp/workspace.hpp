@@ -2,6 +2,7 @@
 
 #include "core/grasp/bin_fit.hpp"
 #include "core/grasp/candidates.hpp"
+#include "core/grasp/choice.hpp"
 #include "core/grasp/cloud_map.hpp"
 #include "core/grasp/hidden_space.hpp"
 #include "core/grasp/parameters.hpp"
@@ -12,13 +13,15 @@
 
 namespace graspd {
 
-/// All the memory that a choice writes to.
+/// All the memory that a choice writes to. It stays where it is while the choice is under way.
 struct GraspWorkspace {
   GraspCapacity capacity;
+  GraspChoice choice;
   FixedVector<GraspCandidate> candidates;  ///< Of the instance in hand.
+  FixedVector<GraspSearch> searches;       ///< One for each instance.
+  FixedVector<AvoidedPlace> avoided;       ///< When the choice began.
   FixedVector<Pick> picks;
   FixedVector<GraspRejection> reasons;
-  FixedVector<std::int32_t> ranks;  ///< order_rank of each instance.
   FixedVector<RejectedGrasp> rejected;
   CloudMap cloud;
   HiddenSpace hidden;

@@ -126,10 +126,12 @@ inline constexpr std::array<ResultReasonEntry, 23> result_reason_table{{
 [[nodiscard]] ResultReason result_reason(Rejection rejection);
 [[nodiscard]] ResultReason result_reason(GraspRejection rejection);
 
-/// The bits of the register `flags`: DetectionFlag in bits 0 to 3, PickFlag in bits 4 and 5, flag_voting_cut in bit 6.
+/// The bits of the register `flags`: DetectionFlag in bits 0 to 3, PickFlag in bits 4, 5 and 7, flag_voting_cut in bit
+/// 6.
 [[nodiscard]] constexpr std::uint16_t result_flags(std::uint32_t detection_flags, std::uint32_t pick_flags) {
   return static_cast<std::uint16_t>((detection_flags & 0xFU) | (pick_flags & 3U) << 4U |
-                                    (detection_flags & flag_voting_cut) << 2U);
+                                    (detection_flags & flag_voting_cut) << 2U |
+                                    (pick_flags & flag_not_all_asked) << 5U);
 }
 
 }  // namespace graspd

@@ -32,7 +32,7 @@ namespace {
 /// Piles whose parts were all detected, one after the other in the bin of a camera.
 class DetectedPiles {
  public:
-  explicit DetectedPiles(std::size_t parts) {
+  DetectedPiles(std::size_t parts, std::size_t picks) : picks_(picks) {
     const PileBin bin{0.25F, 0.19F};
     const Camera camera{1280, 960, 1100.0F, 1100.0F, 639.5F, 479.5F};
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
@@ -51,7 +51,8 @@ class DetectedPiles {
     const Bank bank = shapes_[number].bank();
     Detections detections;
     detections.instances = scene.detected;
-    const PickResult picks = choose_pick(scene.frame(), detections, {&bank, 1}, scene.parameters, memory_.workspace);
+    begin_choice(scene.frame(), detections, {&bank, 1}, scene.parameters, memory_.workspace);
+    const PickResult picks = find_picks(memory_.workspace, picks_);
     ResultBlock block;
     block.sequence = request.sequence;
     block.request_id = request.request_id;
@@ -64,6 +65,7 @@ class DetectedPiles {
   }
 
  private:
+  std::size_t picks_;
   std::array<HeldShape, 3> shapes_{held_block(), held_bar(), held_bracket()};
   std::array<PileScene, 3> scenes_;
   GraspMemory memory_;
@@ -99,6 +101,7 @@ struct Equipment {
   PickCycle& cycle = equipment.cycle;
   cycle.settings.detect = configuration.detect.parameters;
   cycle.settings.grasp = configuration.grasp.parameters;
+  cycle.settings.count_all = configuration.grasp.count_all;
   cycle.settings.calibrated = configuration.calibrated;
   cycle.settings.maximum_age_ns = 1'000'000'000;
   cycle.settings.now_ns = &monotonic_ns;
@@ -219,9 +222,10 @@ void print(std::vector<double> latencies) {
               latencies.size(), mean, at(0.5), at(0.99), at(0.999), latencies.back());
 }
 
-[[nodiscard]] Status run(const std::string& path, std::size_t parts, int triggers, int clients, int rate) {
+[[nodiscard]] Status run(const std::string& path, std::size_t parts, std::size_t picks, int triggers, int clients,
+                         int rate) {
   Equipment equipment;
-  if (parts > 0) equipment.piles = std::make_unique<DetectedPiles>(parts);
+  if (parts > 0) equipment.piles = std::make_unique<DetectedPiles>(parts, picks);
   if (!path.empty()) {
     if (Status equipped = equip(path, equipment); !equipped.ok()) return equipped;
   }
@@ -251,17 +255,19 @@ int main(int argc, char** argv) {
   CLI::App command_line("Measures an answer's time beside capture and detection");
   std::string configuration;
   std::size_t parts = 0;
+  std::size_t picks = 1;
   int triggers = 10000;
   int clients = 3;
   int rate = 100;
   CLI::Option* const from_file =
       command_line.add_option("--config", configuration, "Pick from this configuration's frames; else answer at once");
   command_line.add_option("--parts", parts, "Choose grasps in piles of so many parts")->excludes(from_file);
+  command_line.add_option("--picks", picks, "Picks wanted of each pile")->capture_default_str();
   command_line.add_option("--triggers", triggers, "Requests")->capture_default_str();
   command_line.add_option("--clients", clients, "Clients that read the block meanwhile")->capture_default_str();
   command_line.add_option("--rate", rate, "Reads a second of each")->check(CLI::PositiveNumber)->capture_default_str();
   CLI11_PARSE(command_line, argc, argv);
-  const graspd::Status status = graspd::run(configuration, parts, triggers, clients, rate);
+  const graspd::Status status = graspd::run(configuration, parts, picks, triggers, clients, rate);
   if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().data());
   return status.ok() ? 0 : 1;
 }

@@ -137,6 +137,7 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(detect.capacity.judged);
   GRASPD_COMPARE(detect.capacity.instances);
   GRASPD_COMPARE(grasp.capacity.candidates);
+  GRASPD_COMPARE(grasp.count_all);
   GRASPD_COMPARE(grasp.parameters.maximum_tilt);
   GRASPD_COMPARE(grasp.parameters.approach_distance);
   GRASPD_COMPARE(grasp.parameters.symmetry_steps);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/grasp/hidden_space.hpp"
+#include "core/grasp/hidden_part.hpp"
 #include "tests/core/grasp/box_scene.hpp"
 #include "tests/core/grasp/grasp_memory.hpp"
 

@@ -128,6 +128,19 @@ TEST(RegisterMapPage, ExplainsEveryOption) {
   EXPECT_EQ(all, request_option::all);
 }
 
+TEST(RegisterMapPage, ExplainsEveryFlag) {
+  const auto rows = register_map().rows("## Result block");
+  const std::string text = rows[block::flags][4];
+  EXPECT_EQ(rows[block::flags][1], "flags");
+  const std::uint16_t all = result_flags(~0U, ~0U);
+  for (int bit = 0; bit < 16; ++bit) {
+    const bool explained = text.find(std::to_string(bit) + ": ") != std::string::npos;
+    EXPECT_EQ(explained, (all >> bit & 1) != 0) << bit;
+  }
+  EXPECT_NE(text.find("Bit 7: pickable and remaining are at least"), std::string::npos);
+  EXPECT_EQ(result_flags(0, flag_not_all_asked), 1U << 7U);
+}
+
 TEST(RegisterMapPage, SaysHowEachFunctionIsAnswered) {
   const Page page = register_map();
   const auto line = std::find_if(page.lines().begin(), page.lines().end(),

@@ -221,6 +221,7 @@ TEST(ResultFlags, KeepDetectionAndPickApart) {
   EXPECT_EQ(result_flags(0, flag_grasps_cut), 16U);
   EXPECT_EQ(result_flags(flag_deadline, flag_picks_cut), 40U);
   EXPECT_EQ(result_flags(flag_voting_cut, flag_grasps_cut), 80U);
+  EXPECT_EQ(result_flags(0, flag_not_all_asked), 128U);
 }
 
 }  // namespace
