@@ -165,10 +165,11 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
   for (std::uint32_t b = 0; b < request.banks.size() && !out_of_time(); ++b) {
     const Bank& bank = request.banks[b];
     const float reach = bank.grid.distance_step * static_cast<float>(bank.grid.distance_bins);
-    const NeighbourGrid points = sample_for(scene, bank.part->sampling, reach, workspace.preprocess);
+    const NeighbourGrid points = sample_for(scene, bank.part->sampling, reach, execution, workspace.preprocess);
+    clock.end_of(Stage::preprocess);
+    if (execution.late()) break;
     detections.scene_points += static_cast<std::uint32_t>(points.points.size());
     if (workspace.preprocess.samples.dropped() > 0) detections.flags |= flag_scene_points_cut;
-    clock.end_of(Stage::preprocess);
 
     const VotingWork voting = match(points, bank, parameters.match, execution, workspace.match, workspace.hypotheses);
     detections.work.voting += voting;

@@ -81,7 +81,7 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float det
   if (execution.late()) return scene;
   if (parameters.segmentation) {
     const auto cells = static_cast<std::uint32_t>(2.0F * parameters.cells_per_detail * parameters.cells_per_detail);
-    (void)segment_foreground(cells, workspace.segments, scene.map);
+    segment_foreground(cells, execution, workspace.segments, scene.map);
     if (execution.late()) return scene;
   }
   const int radius = std::clamp(static_cast<int>(std::lround(0.5F * parameters.cells_per_detail)), 1, 4);
@@ -96,8 +96,9 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float det
   return scene;
 }
 
-NeighbourGrid sample_for(const Scene& scene, float sampling, float reach, PreprocessWorkspace& workspace) {
-  sample_scene(scene.map, sampling, workspace.sampling, workspace.samples);
+NeighbourGrid sample_for(const Scene& scene, float sampling, float reach, const Execution& execution,
+                         PreprocessWorkspace& workspace) {
+  sample_scene(scene.map, sampling, execution, workspace.sampling, workspace.samples);
   return build_neighbour_grid(workspace.samples.span(), 0.5F * reach, workspace.grid);
 }
 

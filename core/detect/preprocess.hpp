@@ -41,7 +41,9 @@ struct PreprocessWorkspace {
                                const PreprocessParameters& parameters, const Execution& execution,
                                PreprocessWorkspace& workspace);
 
-/// The scene points that vote for a part sampled at `sampling`, in a grid for pairs up to `reach` apart.
-[[nodiscard]] NeighbourGrid sample_for(const Scene& scene, float sampling, float reach, PreprocessWorkspace& workspace);
+/// The scene points that vote for a part sampled at `sampling`, in a grid for pairs up to `reach` apart. Once it is
+/// late there are none.
+[[nodiscard]] NeighbourGrid sample_for(const Scene& scene, float sampling, float reach, const Execution& execution,
+                                       PreprocessWorkspace& workspace);
 
 }  // namespace graspd

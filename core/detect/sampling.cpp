@@ -18,14 +18,15 @@ std::uint64_t voxel_of(const Vector3& point, float inverse_voxel) {
   return along(point.z()) << (2 * axis_bits) | along(point.y()) << axis_bits | along(point.x());
 }
 
-/// Radix sort by voxel, stable, so cells of one voxel stay in image order.
-void sort_by_voxel(std::span<VoxelKey> keys, std::span<VoxelKey> scratch) {
+/// Radix sort by voxel, stable, so cells of one voxel stay in image order. Once it is late the order is of no use.
+void sort_by_voxel(std::span<VoxelKey> keys, const Execution& execution, std::span<VoxelKey> scratch) {
   std::uint64_t varying = 0;
   for (const VoxelKey& key : keys) varying |= key.voxel ^ keys.front().voxel;
   std::span<VoxelKey> from = keys;
   std::span<VoxelKey> to = scratch.first(keys.size());
   for (std::uint64_t shift = 0; shift < 3 * axis_bits; shift += 8) {
     if ((varying >> shift & 0xFFU) == 0) continue;
+    if (execution.late()) return;
     std::array<std::uint32_t, 256> starts{};
     for (const VoxelKey& key : from) ++starts[key.voxel >> shift & 0xFFU];
     std::uint32_t sum = 0;
@@ -50,22 +51,32 @@ struct NormalCluster {
 constexpr float same_direction = 0.866F;  // cosine of 30 degrees
 constexpr std::size_t most_clusters = 4;
 
+// Between two looks at the clock.
+constexpr std::uint32_t cells_at_once = 4096;
+constexpr std::size_t voxels_at_once = 64;
+
 }  // namespace
 
-void sample_scene(const SceneMap& map, float voxel, SamplingWorkspace& workspace, FixedVector<OrientedPoint>& points) {
+void sample_scene(const SceneMap& map, float voxel, const Execution& execution, SamplingWorkspace& workspace,
+                  FixedVector<OrientedPoint>& points) {
   points.clear();
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < map.cells.size(); ++i) {
+    if (i % cells_at_once == 0 && execution.late()) return;
     const MapCell& cell = map.cells[i];
     if (cell.foreground == 0 || !cell.has_normal()) continue;
     workspace.keys[count++] = {voxel_of(cell.point, 1.0F / voxel), i};
   }
   if (count == 0) return;
   const std::span<VoxelKey> keys = workspace.keys.first(count);
-  sort_by_voxel(keys, workspace.scratch);
+  sort_by_voxel(keys, execution, workspace.scratch);
 
   std::size_t first = 0;
-  while (first < count) {
+  for (std::size_t voxels = 0; first < count; ++voxels) {
+    if (voxels % voxels_at_once == 0 && execution.late()) {
+      points.clear();
+      return;
+    }
     std::array<NormalCluster, most_clusters> clusters{};
     std::size_t used = 0;
     std::size_t i = first;

@@ -23,7 +23,8 @@ struct SamplingWorkspace {
 
 /// Averages the foreground in voxels of edge `voxel` (metres), one point for each direction of normals
 /// in a voxel (Vidal et al. 2018), so that both sides of an edge stay. The points come in the order of
-/// the voxels. When `points` is full, the voxels last in that order are dropped.
-void sample_scene(const SceneMap& map, float voxel, SamplingWorkspace& workspace, FixedVector<OrientedPoint>& points);
+/// the voxels. When `points` is full, the voxels last in that order are dropped. Once it is late there are none.
+void sample_scene(const SceneMap& map, float voxel, const Execution& execution, SamplingWorkspace& workspace,
+                  FixedVector<OrientedPoint>& points);
 
 }  // namespace graspd

@@ -76,7 +76,7 @@ Status run(const Options& options) {
   PreprocessWorkspace workspace = carve_preprocess_workspace(arena, capacity);
   const Scene seen = preprocess(depth, frame.value().empty_bin(), bank.part->detail, {}, {}, workspace);
   const float reach = bank.grid.distance_step * static_cast<float>(bank.grid.distance_bins);
-  const NeighbourGrid points = sample_for(seen, bank.part->sampling, reach, workspace);
+  const NeighbourGrid points = sample_for(seen, bank.part->sampling, reach, {}, workspace);
 
   const int most_threads = omp_get_num_procs();
   std::vector<Worker> workers(static_cast<std::size_t>(most_threads));

@@ -59,6 +59,33 @@ TEST_F(Deadline, EndsThePreparationOfTheSceneToo) {
   }
 }
 
+TEST_F(Deadline, EndsTheSamplingToo) {
+  PreprocessWorkspace& workspace = memory_.workspace.preprocess;
+  const BankPart& part = *maker_.bank().part;
+  const Scene scene = preprocess(bin_.frame(), {}, part.detail, {}, {}, workspace);
+  const auto sample_until = [&](std::int64_t deadline) {
+    readings = 0;
+    return sample_for(scene, part.sampling, part.diameter, {1, read_clock, deadline}, workspace).points.size();
+  };
+  EXPECT_GT(sample_until(std::int64_t{1} << 60U), 100U);
+  const std::int64_t whole = readings;
+  EXPECT_GT(whole, 10);
+  for (const std::int64_t deadline : {std::int64_t{1}, whole / 2, whole}) EXPECT_EQ(sample_until(deadline), 0U);
+}
+
+TEST_F(Deadline, EndsTheSegmentationToo) {
+  PreprocessWorkspace& workspace = memory_.workspace.preprocess;
+  Scene scene = preprocess(bin_.frame(), {}, maker_.bank().part->detail, {}, {}, workspace);
+  readings = 0;
+  segment_foreground(1, {1, read_clock, std::int64_t{1} << 60U}, workspace.segments, scene.map);
+  EXPECT_GE(readings, scene.map.camera.height);
+  for (const std::int64_t deadline : {1, scene.map.camera.height}) {
+    readings = 0;
+    segment_foreground(1, {1, read_clock, deadline}, workspace.segments, scene.map);
+    EXPECT_EQ(readings, deadline);
+  }
+}
+
 TEST_F(Deadline, EndsTheSelectionToo) {
   const std::size_t found = detect_until(0).instances.size();
   DetectWorkspace& workspace = memory_.workspace;
