@@ -11,9 +11,6 @@
 namespace graspd {
 namespace {
 
-/// Points of the held part that are looked at on the way out.
-constexpr std::size_t carried_points = 128;
-
 /// A grasp of one instance, on its way in.
 struct Attempt {
   const GraspSurroundings& around;
@@ -59,9 +56,8 @@ bool retreat_collides(const Attempt& attempt) {
   const CollisionParameters& collision = attempt.parameters.collision;
   if (sweep_meets_walls(attempt.around.walls, sweep, collision.minimum_clearance)) return true;
   if (sweep_collides(*attempt.around.cloud, sweep, attempt.part, collision)) return true;
-  return carried_meets_walls(
-      attempt.around.walls, attempt.camera_from_part, {attempt.bank.part->box_min, attempt.bank.part->box_max}, motion,
-      attempt.tool.contact_margin, attempt.bank.surface.first(std::min(carried_points, attempt.bank.surface.size())));
+  return carried_meets_walls(attempt.around.walls, attempt.camera_from_part, attempt.bank, motion,
+                             attempt.tool.contact_margin);
 }
 
 /// Of all banks: a part of any of them may hide. Above `most` it is a lower bound.

@@ -46,26 +46,39 @@ bool sweep_meets_walls(const BinWalls& walls, const Sweep& sweep, float clearanc
   });
 }
 
-bool carried_meets_walls(const BinWalls& walls, const RigidTransform& camera_from_part, const Box& part_bounds,
-                         const Vector3& motion, float tolerance, std::span<const SurfacePoint> points) {
+bool carried_meets_walls(const BinWalls& walls, const RigidTransform& camera_from_part, const Bank& bank,
+                         const Vector3& motion, float tolerance) {
   if (walls.count == 0) return false;
+  const Box bounds{bank.part->box_min, bank.part->box_max};
   const RigidTransform bin_from_part = walls.bin_from_camera * camera_from_part;
   const Vector3 way = walls.bin_from_camera.rotation * motion;
-  if (holds(walls.inside, swept_bounds(bounds_in(bin_from_part, part_bounds), way))) return false;
+  if (holds(walls.inside, swept_bounds(bounds_in(bin_from_part, bounds), way))) return false;
   const RigidTransform part_from_bin = inverse(bin_from_part);
   const Vector3 way_of_part = part_from_bin.rotation * way;
   const bool far_off = std::none_of(walls.all().begin(), walls.all().end(), [&](const Box& wall) {
-    return sweep_meets_box(part_bounds, way_of_part, part_from_bin, wall);
+    return sweep_meets_box(bounds, way_of_part, part_from_bin, wall);
   });
   if (far_off) return false;
   const float forgiven = std::min(tolerance, 0.4F * walls.thickness);
-  return std::any_of(points.begin(), points.end(), [&](const SurfacePoint& point) {
-    const Vector3 start = bin_from_part * point.position;
+  const Box free = grown(walls.inside, forgiven);
+  const auto stays_free = [&](const Vector3& point) {
+    const Vector3 start = bin_from_part * point;
+    return free.contains(start) && free.contains(start + way);
+  };
+  // What is free is convex: when all corners begin and end there, so does all between them, and stays there.
+  const std::span<const Vector3> corners = bank.mesh.vertices;
+  if (!corners.empty() && std::all_of(corners.begin(), corners.end(), stays_free)) return false;
+  const auto meets = [&](const Vector3& point) {
+    if (stays_free(point)) return false;
+    const Vector3 start = bin_from_part * point;
     return std::any_of(walls.all().begin(), walls.all().end(), [&](const Box& wall) {
       // The point moves, the wall stands still: as if the wall came towards the point.
       return sweeps_over(grown(wall, -forgiven), -way, start);
     });
-  });
+  };
+  return std::any_of(corners.begin(), corners.end(), meets) ||
+         std::any_of(bank.surface.begin(), bank.surface.end(),
+                     [&](const SurfacePoint& point) { return meets(point.position); });
 }
 
 }  // namespace graspd

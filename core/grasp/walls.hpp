@@ -26,10 +26,10 @@ struct BinWalls {
 /// True when the gripper on its way comes as near to a wall as `clearance`, metres.
 [[nodiscard]] bool sweep_meets_walls(const BinWalls& walls, const Sweep& sweep, float clearance);
 
-/// True when one of `points` (of the part, in its frame), carried by `motion` (metres, camera frame), passes through a
-/// wall, deeper than `tolerance`: the part may lean on a wall, and its pose has an error.
-[[nodiscard]] bool carried_meets_walls(const BinWalls& walls, const RigidTransform& camera_from_part,
-                                       const Box& part_bounds, const Vector3& motion, float tolerance,
-                                       std::span<const SurfacePoint> points);
+/// True when the part of `bank`, carried by `motion` (metres, camera frame), passes through a wall, deeper than
+/// `tolerance`: the part may lean on a wall, and its pose has an error. Looks at the corners of its mesh, which reach
+/// furthest into a wall's face, and at all points of its surface, for those of its edges that pass over a rim.
+[[nodiscard]] bool carried_meets_walls(const BinWalls& walls, const RigidTransform& camera_from_part, const Bank& bank,
+                                       const Vector3& motion, float tolerance);
 
 }  // namespace graspd

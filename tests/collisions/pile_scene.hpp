@@ -54,6 +54,7 @@ struct HeldShape {
     Bank result;
     result.part = &part;
     result.surface = surface;
+    result.mesh = mesh.view();
     result.symmetry_discrete = symmetry;
     result.grasps = grasps;
     return result;

@@ -75,6 +75,23 @@ class Truth {
            !touches(closed_gripper(tool, grasp.held_width), camera_from_tool, way, held);
   }
 
+  /// Whether the part at `held` comes deeper into the bin than `allowed` metres when it is carried along `motion`
+  /// (camera frame); looked at every 2 mm.
+  [[nodiscard]] bool scrapes(const RigidTransform& held, const Vector3& motion, float allowed) const {
+    const int steps = static_cast<int>(motion.norm() / 0.002F);
+    for (const Box& wall : walls_.all()) {
+      const Box core = grown(wall, -allowed);
+      const auto side = std::make_shared<fcl::Boxd>((core.upper - core.lower).cast<double>());
+      const RigidTransform bin_from_wall{Matrix3::Identity(), core.centre()};
+      const fcl::CollisionObjectd standing(side, as_fcl(walls_.camera_from_bin * bin_from_wall));
+      for (int i = 0; i <= steps; ++i) {
+        const Vector3 moved = held.translation + static_cast<float>(i) / static_cast<float>(steps) * motion;
+        if (meets(fcl::CollisionObjectd(solid_, as_fcl({held.rotation, moved})), standing)) return true;
+      }
+    }
+    return false;
+  }
+
  private:
   static bool meets(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b) {
     const fcl::CollisionRequestd request;
@@ -118,6 +135,7 @@ struct Tally {
   int first_collisions = 0;
   int picks = 0;
   int collisions = 0;
+  int scrapes = 0;  ///< Picks whose part comes deeper into the bin than it may on its way out.
 };
 
 void try_pile(const HeldShape& part, PileScene& scene, GraspWorkspace& workspace, Tally& tally) {
@@ -136,6 +154,12 @@ void try_pile(const HeldShape& part, PileScene& scene, GraspWorkspace& workspace
                       scene.detected[pick.instance].camera_from_part);
     ++tally.picks;
     tally.collisions += free ? 0 : 1;
+    const Vector3 way_out =
+        -scene.parameters.retreat.distance * (camera_from_robot.rotation * pick.robot_from_tool.rotation.col(2));
+    tally.scrapes += truth.scrapes(scene.detected[pick.instance].camera_from_part, way_out,
+                                   scene.parameters.tools.tools[0].contact_margin)
+                         ? 1
+                         : 0;
     tally.first_picks += i == 0 ? 1 : 0;
     tally.first_collisions += i == 0 && !free ? 1 : 0;
   }
@@ -159,9 +183,10 @@ Tally try_piles(std::uint64_t first, std::uint64_t count, std::span<const Camera
     }
   }
   std::printf(
-      "%d frames, %d with a free grasp, %d of them answered; %d first picks, %d collide; %d picks, %d collide\n",
+      "%d frames, %d with a free grasp, %d of them answered; %d first picks, %d collide; %d picks, %d collide, with %d "
+      "the part touches the bin\n",
       tally.frames, tally.graspable, tally.answered, tally.first_picks, tally.first_collisions, tally.picks,
-      tally.collisions);
+      tally.collisions, tally.scrapes);
   return tally;
 }
 
@@ -173,6 +198,7 @@ TEST(GraspCollisions, NoChosenGraspCollidesAndFewFramesYieldNone) {
   EXPECT_GT(tally.graspable, tally.frames / 2);
   EXPECT_EQ(tally.first_collisions, 0);
   EXPECT_EQ(tally.collisions, 0);
+  EXPECT_EQ(tally.scrapes, 0);
   // Some free grasps pass through what the sensor did not see, where other parts may lie: those are not chosen.
   EXPECT_GE(tally.answered, 0.95 * tally.graspable);
 }
