@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 // OpenCV's headers do not pass this project's warnings.
@@ -9,6 +10,7 @@
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wshadow"
 #include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/surface_matching.hpp>
 #pragma GCC diagnostic pop
 
@@ -52,9 +54,8 @@ cv::Matx44d matrix_of(const RigidTransform& transform) {
   return pose;
 }
 
-}  // namespace
-
-struct OpenCvPart::Trained {
+/// A part with its detector.
+struct Trained {
   OpenCvSettings settings;
   float voxel = 0;  // Metres.
   mutable cv::ppf_match_3d::PPF3DDetector detector;
@@ -71,25 +72,21 @@ struct OpenCvPart::Trained {
   }
 };
 
-OpenCvPart::OpenCvPart(const MeshView& mesh, float diameter, const OpenCvSettings& settings)
-    : trained_(std::make_unique<Trained>(Trained{settings,
-                                                 static_cast<float>(settings.sampling) * diameter,
-                                                 {settings.sampling, settings.sampling, 30},
-                                                 {}})) {
-  trained_->detector.setSearchParams(settings.cluster_position * static_cast<double>(diameter * millimetres),
-                                     settings.cluster_rotation);
+std::shared_ptr<Trained> train(const MeshView& mesh, float diameter, const OpenCvSettings& settings) {
+  auto part = std::make_shared<Trained>(Trained{
+      settings, static_cast<float>(settings.sampling) * diameter, {settings.sampling, settings.sampling, 30}, {}});
+  part->detector.setSearchParams(settings.cluster_position * static_cast<double>(diameter * millimetres),
+                                 settings.cluster_rotation);
   const std::vector<OrientedPoint> dense = points_on_mesh(mesh, 30000);
   // OpenCV samples by shares of each side of the bounding box, which is far denser than asked for on
   // parts that are not cubes, and slow: it gets the points at the voxel's distance.
-  trained_->detector.trainModel(matrix_of(voxel_averages(dense, trained_->voxel, VoxelSampling::both_faces)));
-  trained_->surface = voxel_averages(dense, trained_->voxel * 0.5F, VoxelSampling::both_faces);
+  part->detector.trainModel(matrix_of(voxel_averages(dense, part->voxel, VoxelSampling::both_faces)));
+  part->surface = voxel_averages(dense, part->voxel * 0.5F, VoxelSampling::both_faces);
+  return part;
 }
 
-OpenCvPart::~OpenCvPart() = default;
-OpenCvPart::OpenCvPart(OpenCvPart&&) noexcept = default;
-
-OpenCvPart::Found OpenCvPart::find(const std::vector<OrientedPoint>& scene) const {
-  Found found;
+PeerPoses find(const Trained& part, const std::vector<OrientedPoint>& scene) {
+  PeerPoses found;
   if (scene.size() < 10) return found;
   const cv::Mat cloud = matrix_of(scene);
 
@@ -100,32 +97,43 @@ OpenCvPart::Found OpenCvPart::find(const std::vector<OrientedPoint>& scene) cons
     low = low.cwiseMin(point.position);
     high = high.cwiseMax(point.position);
   }
-  const double relative = std::max(1.0 / 150.0, 0.5 * static_cast<double>(trained_->voxel / (high - low).maxCoeff()));
+  const double relative = std::max(1.0 / 150.0, 0.5 * static_cast<double>(part.voxel / (high - low).maxCoeff()));
 
   const double match_start = thread_seconds();
   std::vector<cv::ppf_match_3d::Pose3DPtr> poses;
-  trained_->detector.match(cloud, poses, trained_->settings.reference_share, relative);
-  found.match_seconds = thread_seconds() - match_start;
-  if (poses.size() > static_cast<std::size_t>(trained_->settings.refined)) {
-    poses.resize(static_cast<std::size_t>(trained_->settings.refined));
+  part.detector.match(cloud, poses, part.settings.reference_share, relative);
+  found.seconds = thread_seconds() - match_start;
+  if (poses.size() > static_cast<std::size_t>(part.settings.refined)) {
+    poses.resize(static_cast<std::size_t>(part.settings.refined));
   }
 
-  const OpenCvSettings& settings = trained_->settings;
+  const OpenCvSettings& settings = part.settings;
   cv::ppf_match_3d::ICP icp(settings.icp_iterations, settings.icp_tolerance, settings.icp_rejection,
                             settings.icp_levels);
   const double refine_start = thread_seconds();
   for (const auto& candidate : poses) {
     const RigidTransform pose = transform_of(candidate->pose);
-    found.matched.push_back(pose);
-    const cv::Mat side = trained_->visible_side(pose);
+    const cv::Mat side = part.visible_side(pose);
     if (side.rows < 10) continue;
     double residual = 0;
     cv::Matx44d step;
     icp.registerModelToScene(side, cloud, residual, step);
-    found.refined.push_back(transform_of(step * matrix_of(pose)));
+    found.poses.push_back(transform_of(step * matrix_of(pose)));
   }
-  found.refine_seconds = thread_seconds() - refine_start;
+  found.seconds += thread_seconds() - refine_start;
+  for (const auto& candidate : poses) found.poses.push_back(transform_of(candidate->pose));
   return found;
+}
+
+}  // namespace
+
+Peer opencv_peer(const OpenCvSettings& settings) {
+  cv::setNumThreads(1);
+  return {"OpenCV", static_cast<float>(settings.sampling), [settings](const MeshView& mesh, float diameter) {
+            return [part = train(mesh, diameter, settings)](const std::vector<OrientedPoint>& scene) {
+              return find(*part, scene);
+            };
+          }};
 }
 
 }  // namespace graspd

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <memory>
-#include <vector>
-
-#include "core/geometry/mesh.hpp"
-#include "core/geometry/oriented_point.hpp"
+#include "tests/benchmarks/peer_ratio.hpp"
 
 namespace graspd {
 
@@ -21,26 +17,8 @@ struct OpenCvSettings {
   int icp_levels = 4;
 };
 
-/// A part trained with cv::ppf_match_3d::PPF3DDetector.
-class OpenCvPart {
- public:
-  OpenCvPart(const MeshView& mesh, float diameter, const OpenCvSettings& settings);
-  ~OpenCvPart();
-  OpenCvPart(OpenCvPart&&) noexcept;
-
-  /// Poses (camera_from_part), before and after refinement by cv::ppf_match_3d::ICP, and the seconds
-  /// that matching and refining took. `scene` is sampled already.
-  struct Found {
-    std::vector<RigidTransform> matched;
-    std::vector<RigidTransform> refined;
-    double match_seconds = 0;
-    double refine_seconds = 0;
-  };
-  [[nodiscard]] Found find(const std::vector<OrientedPoint>& scene) const;
-
- private:
-  struct Trained;
-  std::unique_ptr<Trained> trained_;
-};
+/// cv::ppf_match_3d::PPF3DDetector, and its ICP for the best poses; on one thread. Poses come as they were refined, and
+/// as they were matched.
+[[nodiscard]] Peer opencv_peer(const OpenCvSettings& settings);
 
 }  // namespace graspd
