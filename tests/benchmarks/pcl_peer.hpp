@@ -8,7 +8,7 @@ namespace graspd {
 struct PclSettings {
   float sampling = 0.1F;  ///< Of model and scene, as a share of the diameter; also the distance step.
   /// Radians; 31 turns. At half a turn exactly, PCL counts one cell beyond the row: here the row's memory has room.
-  float angle_step = 0.2026834F;
+  float angle_step = 0.20268F;
   unsigned reference_step = 10;    ///< Every so many scene points one is a reference.
   float cluster_position = 0.1F;   ///< Share of the diameter.
   float cluster_rotation = 0.35F;  ///< Radians.
