@@ -45,18 +45,20 @@ inline std::span<const PpfEntry> entries_of(const Bank& bank, const CellMeeting&
   return bank.entries.subspan(begin, bank.cell_offsets[meeting.cell + 1] - begin);
 }
 
-/// Casts the votes of all meetings. Returns how many; bins without room for all of theirs hold fewer.
+/// Casts the votes of all meetings. Returns what it took; bins without room for all of their votes hold fewer.
 template <class Count>
-std::uint64_t cast_votes(const Bank& bank, std::span<const CellMeeting> meetings, Count* rows) {
+VotingWork cast_votes(const Bank& bank, std::span<const CellMeeting> meetings, Count* rows) {
   std::fill_n(rows, bank.reference_points.size() * alpha_bins, Count{0});
-  std::uint64_t cast = 0;
+  VotingWork work;
   for (const CellMeeting& meeting : meetings) {
     const std::span<const PpfEntry> entries = entries_of(bank, meeting);
     const std::uint32_t turns = count_turns(meeting);
-    cast += turns * entries.size();
+    work.cells += turns;
+    work.votes += turns * entries.size();
+    work.effort += std::min(turns, turns_at_once) * entries.size();
     vote_cell(entries, meeting, turns, rows);
   }
-  return cast;
+  return work;
 }
 
 /// For each reference the votes of its best turn, neighbouring ones counted half: a turn between two bins shares its
@@ -114,21 +116,18 @@ inline void vote(const NeighbourGrid& scene, const Bank& bank, const OrientedPoi
   end_batch();
   const std::span<CellMeeting> meetings = scratch.meetings.first(met);
   const std::span<std::uint16_t> best_votes = scratch.best_votes.first(references);
-  const std::uint64_t votes = cast_votes(bank, meetings, scratch.narrow_rows.data());
+  const VotingWork work = cast_votes(bank, meetings, scratch.narrow_rows.data());
   // A byte that ran over lost 256 votes.
-  scratch.wide = find_best_votes(scratch.narrow_rows.data(), best_votes) != votes;
+  scratch.wide = find_best_votes(scratch.narrow_rows.data(), best_votes) != work.votes;
   if (scratch.wide) {
     static_cast<void>(cast_votes(bank, meetings, scratch.wide_rows.data()));
     static_cast<void>(find_best_votes(scratch.wide_rows.data(), best_votes));
   }
   for (CellMeeting& meeting : meetings) {
-    const std::uint32_t turns = count_turns(meeting);
-    scratch.work.cells += turns;
-    scratch.work.effort += std::min(turns, turns_at_once) * entries_of(bank, meeting).size();
     scratch.meeting_of_cell[meeting.cell] = VotingScratch::not_met;
     meeting.turns = {};
   }
-  scratch.work.votes += votes;
+  scratch.work += work;
   scratch.work.effort += effort_of_row * references;
 }
 
