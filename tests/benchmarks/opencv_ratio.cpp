@@ -1,7 +1,6 @@
 // Runs graspd and OpenCV's surface_matching on the same frames; see peer_ratio.hpp.
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
 #include "tests/benchmarks/opencv_peer.hpp"
 #include "tests/benchmarks/peer_ratio.hpp"
@@ -21,9 +20,5 @@ int main(int argc, char** argv) {
   app.add_option("--icp-rejection", settings.icp_rejection)->capture_default_str();
   app.add_option("--icp-levels", settings.icp_levels)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  const graspd::Status status = graspd::compare_with(graspd::opencv_peer(settings), options);
-  if (!status.ok()) {
-    std::fprintf(stderr, "opencv_ratio: %.*s\n", static_cast<int>(status.message().size()), status.message().data());
-  }
-  return static_cast<int>(status.code());
+  return graspd::run_comparison("opencv_ratio", graspd::opencv_peer(settings), options);
 }

@@ -1,7 +1,6 @@
 // Runs graspd and PCL's PPFRegistration on the same frames; see peer_ratio.hpp.
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
 #include "tests/benchmarks/pcl_peer.hpp"
 #include "tests/benchmarks/peer_ratio.hpp"
@@ -21,9 +20,5 @@ int main(int argc, char** argv) {
   app.add_option("--icp-distance", settings.icp_distance, "Share of the diameter")->capture_default_str();
   app.add_option("--taken-distance", settings.taken_distance, "Share of the diameter")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  const graspd::Status status = graspd::compare_with(graspd::pcl_peer(settings), options);
-  if (!status.ok()) {
-    std::fprintf(stderr, "pcl_ratio: %.*s\n", static_cast<int>(status.message().size()), status.message().data());
-  }
-  return static_cast<int>(status.code());
+  return graspd::run_comparison("pcl_ratio", graspd::pcl_peer(settings), options);
 }

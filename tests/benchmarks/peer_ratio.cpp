@@ -92,20 +92,7 @@ void print_ratios(const Peer& peer, const std::vector<ImageErrors>& graspd, cons
               ratios.front());
 }
 
-}  // namespace
-
-void add_ratio_options(CLI::App& app, RatioOptions& options) {
-  app.add_option("--bop", options.root, "Data set in BOP format")->required();
-  app.add_option("--split", options.split, "Its images")->capture_default_str();
-  app.add_option("--banks", options.bank_folder, "Folder with obj_000001.bank ...; left out: the other alone");
-  app.add_option("--images", options.images, "Only these, as SCENE/IMAGE");
-  app.add_option("--every", options.every, "Only every so many images")->capture_default_str();
-  app.add_flag("--alone", options.without_peer, "graspd alone");
-  app.add_option("--minimum-score", options.minimum_score, "Below which the other's poses are not reported")
-      ->capture_default_str();
-}
-
-Status compare_with(const Peer& peer, const RatioOptions& options) {
+Status compare(const Peer& peer, const RatioOptions& options) {
   omp_set_num_threads(1);
   const Result<std::vector<EvaluationPart>> parts = read_evaluation_parts(options.root);
   if (!parts.ok()) return parts.status();
@@ -147,6 +134,27 @@ Status compare_with(const Peer& peer, const RatioOptions& options) {
   if (!peer_errors.empty()) print_summary_table(peer.name.c_str(), summarise(peer_errors));
   if (!graspd_errors.empty() && !peer_errors.empty()) print_ratios(peer, graspd_errors, peer_errors);
   return {};
+}
+
+}  // namespace
+
+void add_ratio_options(CLI::App& app, RatioOptions& options) {
+  app.add_option("--bop", options.root, "Data set in BOP format")->required();
+  app.add_option("--split", options.split, "Its images")->capture_default_str();
+  app.add_option("--banks", options.bank_folder, "Folder with obj_000001.bank ...; left out: the other alone");
+  app.add_option("--images", options.images, "Only these, as SCENE/IMAGE");
+  app.add_option("--every", options.every, "Only every so many images")->capture_default_str();
+  app.add_flag("--alone", options.without_peer, "graspd alone");
+  app.add_option("--minimum-score", options.minimum_score, "Below which the other's poses are not reported")
+      ->capture_default_str();
+}
+
+int run_comparison(const char* program, const Peer& peer, const RatioOptions& options) {
+  const Status status = compare(peer, options);
+  if (!status.ok()) {
+    std::fprintf(stderr, "%s: %.*s\n", program, static_cast<int>(status.message().size()), status.message().data());
+  }
+  return static_cast<int>(status.code());
 }
 
 }  // namespace graspd

@@ -8,7 +8,6 @@
 #include "core/geometry/mesh.hpp"
 #include "core/geometry/oriented_point.hpp"
 #include "core/geometry/rigid_transform.hpp"
-#include "core/status.hpp"
 
 namespace graspd {
 
@@ -46,7 +45,7 @@ void add_ratio_options(CLI::App& app, RatioOptions& options);
 
 /// Runs graspd and the peer on the same frames, one thread each, and prints the seconds a frame of both, their
 /// ratio, and how well each did. Background, normals, sampling, ranking by depth and suppression of duplicates are
-/// given to the peer and not counted. Fails as the reading of data set and banks does.
-[[nodiscard]] Status compare_with(const Peer& peer, const RatioOptions& options);
+/// given to the peer and not counted. Returns the exit code of `program`, after a line that says what failed.
+[[nodiscard]] int run_comparison(const char* program, const Peer& peer, const RatioOptions& options);
 
 }  // namespace graspd
