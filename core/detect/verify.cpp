@@ -6,39 +6,11 @@
 #include <bit>
 #include <cmath>
 
-#include "core/detect/rendered_normal.hpp"
+#include "core/detect/cell_verdict.hpp"
 
 namespace graspd {
 
 namespace {
-
-/// What the scene says at one cell of the rendered model.
-enum class CellVerdict : std::uint8_t { unmeasured, confirmed, behind, occluded, contradicted };
-
-constexpr float same_normal = 0.6F;
-
-struct Verdict {
-  CellVerdict verdict = CellVerdict::unmeasured;
-  float distance = 0;  ///< Between the surfaces, along the model's normal (metres).
-};
-
-Verdict judge(const MapCell& cell, const RenderedModel& model, int u, int v, float tolerance) {
-  if (!cell.measured()) return {};
-  // Along a grazing ray a small gap between surfaces looks long; below this it is noise of the rim.
-  constexpr float least_slope = 0.25F;
-  const float gap = cell.point.z() - model.front[model.camera.index(u, v)];
-  const CellVerdict apart = gap > 0.0F ? CellVerdict::behind : CellVerdict::occluded;
-  if (std::abs(gap) * least_slope > tolerance) return {apart, std::abs(gap)};
-  const Rays rays(model.camera, u, v);
-  const Vector3 normal = rendered_normal(model, rays, u, v);
-  const Vector3 ray = rays.point(0, 0, 1.0F);
-  const float slope = normal.isZero() ? 1.0F : std::max(least_slope, std::abs(normal.dot(ray)) / ray.norm());
-  const float distance = std::abs(gap) * slope;
-  if (distance > tolerance) return {apart, distance};
-  if (cell.foreground == 0) return {CellVerdict::contradicted, distance};
-  const bool agrees = normal.isZero() || !cell.has_normal() || normal.dot(cell.normal) > same_normal;
-  return {agrees ? CellVerdict::confirmed : CellVerdict::contradicted, distance};
-}
 
 constexpr std::array<std::array<int, 2>, 4> directions{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
@@ -46,16 +18,12 @@ bool rendered_at(const RenderedModel& model, int u, int v) {
   return model.camera.contains(u, v) && model.front[model.camera.index(u, v)] > 0.0F;
 }
 
-/// In which of the four directions the model does not cover the neighbour of a cell, a bit for each.
-unsigned open_sides(const RenderedModel& model, int u, int v) {
-  const Camera& camera = model.camera;
-  const float* const cell = &model.front[camera.index(u, v)];
-  const bool right = u + 1 == camera.width || cell[1] == 0.0F;
-  const bool left = u == 0 || cell[-1] == 0.0F;
-  const bool below = v + 1 == camera.height || cell[camera.width] == 0.0F;
-  const bool above = v == 0 || cell[-camera.width] == 0.0F;
+/// In which of the directions the model does not cover the neighbours of its cells.
+std::array<LaneMask, 4> open_sides(const ModelCells& cells) {
   static_assert(directions[0][0] == 1 && directions[1][0] == -1 && directions[2][1] == 1 && directions[3][1] == -1);
-  return (right ? 1U : 0U) | (left ? 2U : 0U) | (below ? 4U : 0U) | (above ? 8U : 0U);
+  const LaneMask covered = cells.here > 0.0F;
+  return {covered & (cells.right == 0.0F), covered & (cells.left == 0.0F), covered & (cells.below == 0.0F),
+          covered & (cells.above == 0.0F)};
 }
 
 bool is_claimed(const SceneMap& map, std::span<const std::uint16_t> claimed, int u, int v) {
@@ -64,7 +32,6 @@ bool is_claimed(const SceneMap& map, std::span<const std::uint16_t> claimed, int
 
 /// Votes of the outline on whether the scene ends where the model ends.
 struct OutlineCount {
-  int length = 0;  ///< In edges of cells, decided or not.
   int consistent = 0;
   int inconsistent = 0;
 };
@@ -80,10 +47,10 @@ const MapCell* confirmed_inside(const SceneMap& map, const RenderedModel& model,
     if (!rendered_at(model, x, y)) return nullptr;
     const int map_u = model.rectangle.left + x;
     const int map_v = model.rectangle.top + y;
-    const MapCell& cell = map.at(map_u, map_v);
-    if (!is_claimed(map, claimed, map_u, map_v) &&
-        judge(cell, model, x, y, tolerance).verdict == CellVerdict::confirmed)
-      return &cell;
+    if (map.at(map_u, map_v).foreground == 0 || is_claimed(map, claimed, map_u, map_v)) continue;
+    const Verdicts verdicts =
+        judge_cells(measured_cells(map, model, x, y), ModelCells(model, x, y), model.camera, x, y, tolerance);
+    if (verdicts.confirmed[0] != 0) return &map.at(map_u, map_v);
   }
   return nullptr;
 }
@@ -116,6 +83,28 @@ void judge_rim(const SceneMap& map, const RenderedModel& model, std::span<const 
   }
   if (seen > 0) ++(2 * going_on > seen ? count.inconsistent : count.consistent);
 }
+
+/// What a better instance explains hides this one, unless this one would stand before it.
+void yield_to_claims(const SceneMap& map, const RenderedModel& model, std::span<const std::uint16_t> claimed,
+                     const LaneMask& covered, int u, int v, Verdicts& verdicts) {
+  LaneMask taken{};
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    if (covered[i] != 0 &&
+        is_claimed(map, claimed, model.rectangle.left + u + static_cast<int>(i), model.rectangle.top + v))
+      taken[i] = -1;
+  }
+  verdicts.occluded |= taken & ~verdicts.behind;
+  verdicts.confirmed &= ~taken;
+  verdicts.contradicted &= ~taken;
+}
+
+/// Cells that some mask holds for, counted apart in each lane.
+struct CellCount {
+  LaneMask lanes{};
+
+  void add(const LaneMask& mask) { lanes -= mask; }
+  [[nodiscard]] float total() const { return static_cast<float>(lanes[0] + lanes[1] + lanes[2] + lanes[3]); }
+};
 
 /// From how far the normals spread in the direction in which they spread least: without any in that direction the
 /// surface could slide along it (Gelfand and Guibas 2004, slippable motions).
@@ -194,74 +183,73 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
                          const VerifyParameters& parameters, std::span<const std::uint16_t> claimed) {
   Evidence evidence;
   const float tolerance = surface_tolerance(map, bank, parameters);
-  std::array<float, 5> counts{};
-  float rendered = 0;
-  float below = 0;
+  const bool edges_judge = parameters.edges && bank.part->edges_judge != 0;
+  CellCount rendered_cells, confirmed_cells, behind_cells, occluded_cells, contradicted_cells, halves_below, open_edges;
+  OutlineCount outline;
+  float depth_sum = 0;
   float squares = 0;
   float gap = 0;
-  const bool edges_judge = parameters.edges && bank.part->edges_judge != 0;
-  OutlineCount outline;
   Matrix3 normals = Matrix3::Zero();
   float normal_count = 0;
-  float depth_sum = 0;
   for (int v = 0; v < model.rectangle.height; ++v) {
-    for (int u = 0; u < model.rectangle.width; ++u) {
-      const std::size_t index = model.camera.index(u, v);
-      const float front = model.front[index];
-      if (front == 0.0F) continue;
-      rendered += 1.0F;
-      depth_sum += front;
-      const int map_u = model.rectangle.left + u;
-      const int map_v = model.rectangle.top + v;
-      const MapCell& cell = map.at(map_u, map_v);
-      if (cell.background > 0.0F) {
-        const float limit = cell.background + tolerance;
-        below += front > limit ? 0.5F : 0.0F;
-        below += !model.back.empty() && model.back[index] > limit ? 0.5F : 0.0F;
-      }
-      const unsigned sides = open_sides(model, u, v);
-      const bool rim = sides != 0;
-      outline.length += std::popcount(sides);
-      Verdict verdict = judge(cell, model, u, v, tolerance);
-      // What a better instance explains hides this one, unless this one would stand before it.
-      if (is_claimed(map, claimed, map_u, map_v) && verdict.verdict != CellVerdict::behind)
-        verdict.verdict = CellVerdict::occluded;
-      if (rim && edges_judge) {
-        const MapCell* const here = verdict.verdict == CellVerdict::confirmed ? &cell : nullptr;
-        for (std::size_t side = 0; side < directions.size(); ++side) {
-          if ((sides >> side & 1U) == 0) continue;
-          const auto [du, dv] = directions[side];
-          const MapCell* const inside =
-              here != nullptr ? here : confirmed_inside(map, model, claimed, u, v, du, dv, tolerance);
-          if (inside != nullptr) judge_rim(map, model, claimed, *inside, u, v, du, dv, tolerance, outline);
+    for (int u = 0; u < model.rectangle.width; u += static_cast<int>(lane_count)) {
+      const ModelCells cells(model, u, v);
+      const LaneMask covered = cells.here > 0.0F;
+      if (!any(covered)) continue;
+      const MeasuredCells measured = measured_cells(map, model, u, v);
+      const LaneMask bounded = covered & (measured.background > 0.0F);
+      const Lanes limit = measured.background + tolerance;
+      rendered_cells.add(covered);
+      halves_below.add(bounded & (cells.here > limit));
+      if (!model.back.empty()) halves_below.add(bounded & (rendered_depths(model.camera, model.back, u, v) > limit));
+      Verdicts verdicts = judge_cells(measured, cells, model.camera, u, v, tolerance);
+      if (!claimed.empty()) yield_to_claims(map, model, claimed, covered, u, v, verdicts);
+      const std::array<LaneMask, 4> open = open_sides(cells);
+      for (std::size_t side = 0; side < open.size(); ++side) {
+        open_edges.add(open[side]);
+        if (!edges_judge || !any(open[side])) continue;
+        const auto [du, dv] = directions[side];
+        for (std::size_t i = 0; i < lane_count; ++i) {
+          if (open[side][i] == 0) continue;
+          const int x = u + static_cast<int>(i);
+          const MapCell* const inside = verdicts.confirmed[i] != 0
+                                            ? &map.at(model.rectangle.left + x, model.rectangle.top + v)
+                                            : confirmed_inside(map, model, claimed, x, v, du, dv, tolerance);
+          if (inside != nullptr) judge_rim(map, model, claimed, *inside, x, v, du, dv, tolerance, outline);
         }
       }
       // Pixels at an edge mix both sides, so a rim that seems to stand before free space says nothing.
-      if (rim && verdict.verdict == CellVerdict::behind) verdict.verdict = CellVerdict::unmeasured;
-      counts[static_cast<std::size_t>(verdict.verdict)] += 1.0F;
-      if (verdict.verdict == CellVerdict::behind)
-        gap += in_broad_gap(map, model, u, v, bank.part->detail, tolerance) ? 1.0F : 0.0F;
-      if (verdict.verdict != CellVerdict::confirmed) continue;
-      squares += verdict.distance * verdict.distance;
-      if (cell.has_normal()) {
-        normals += cell.normal * cell.normal.transpose();
+      verdicts.behind &= ~(open[0] | open[1] | open[2] | open[3]);
+      confirmed_cells.add(verdicts.confirmed);
+      behind_cells.add(verdicts.behind);
+      occluded_cells.add(verdicts.occluded);
+      contradicted_cells.add(verdicts.contradicted);
+      for (std::size_t i = 0; i < lane_count; ++i) {
+        depth_sum += cells.here[i];
+        if (verdicts.behind[i] != 0)
+          gap += in_broad_gap(map, model, u + static_cast<int>(i), v, bank.part->detail, tolerance) ? 1.0F : 0.0F;
+        if (verdicts.confirmed[i] == 0) continue;
+        squares += verdicts.distance[i] * verdicts.distance[i];
+        if (measured.normal.z[i] == 0.0F) continue;
+        normals += measured.normal[i] * measured.normal[i].transpose();
         normal_count += 1.0F;
       }
     }
   }
+  const float rendered = rendered_cells.total();
   if (rendered == 0.0F) return evidence;
-  const auto count = [&](CellVerdict verdict) { return counts[static_cast<std::size_t>(verdict)]; };
-  const float confirmed = count(CellVerdict::confirmed);
-  const float against = count(CellVerdict::behind) + count(CellVerdict::contradicted);
-  const float measured = confirmed + against + count(CellVerdict::occluded);
+  const float confirmed = confirmed_cells.total();
+  const float behind = behind_cells.total();
+  const float against = behind + contradicted_cells.total();
+  const float measured = confirmed + against + occluded_cells.total();
   // What lies outside the image was not measured.
   evidence.inside = model.inside;
   evidence.visible = model.inside * confirmed / rendered;
   evidence.measured = model.inside * measured / rendered;
   evidence.overlap = measured > 0.0F ? confirmed / measured : 0.0F;
   evidence.purity = confirmed + against > 0.0F ? confirmed / (confirmed + against) : 0.0F;
-  evidence.boundary = count(CellVerdict::behind) / rendered;
-  evidence.below = below / rendered;
+  evidence.boundary = behind / rendered;
+  evidence.below = 0.5F * halves_below.total() / rendered;
   const float residual = confirmed > 0.0F ? std::sqrt(squares / confirmed) : 0.0F;
   evidence.residual = residual / bank.part->sampling;
   evidence.misfit = residual / tolerance;
@@ -269,7 +257,7 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   evidence.confirmed = confirmed / (unit_cells * unit_cells);
   evidence.gap = gap / (unit_cells * unit_cells);
   evidence.blur = blur_of(map, bank.part->detail);
-  evidence.outline = static_cast<float>(outline.length) / unit_cells;
+  evidence.outline = open_edges.total() / unit_cells;
   evidence.lock = normal_count > 0.0F ? lock_of(normals / normal_count) : 0.0F;
   if (edges_judge) {
     const int decided = outline.consistent + outline.inconsistent;
