@@ -12,24 +12,41 @@ namespace {
 constexpr std::array<std::array<int, 2>, 8> ring{
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
-/// The direction in the image in which the surface ends at (u, v): the sum of the directions of the
-/// neighbours beyond. Zero where it goes on all around.
-Eigen::Vector2f outward(const SceneMap& map, const RenderedModel& model, int u, int v) {
-  const float front = model.front[model.camera.index(u, v)];
-  const float step = map.surface_step(front);
-  Eigen::Vector2f sum = Eigen::Vector2f::Zero();
-  bool ends = false;
-  const float diagonal = 1.0F / std::sqrt(2.0F);
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const int x = u + ring[k][0];
-    const int y = v + ring[k][1];
-    const float beyond = model.camera.contains(x, y) ? model.front[model.camera.index(x, y)] : 0.0F;
-    if (beyond != 0.0F && beyond - front < step) continue;
-    const float length = k % 2 == 0 ? 1.0F : diagonal;
-    sum += length * Eigen::Vector2f(static_cast<float>(ring[k][0]), static_cast<float>(ring[k][1]));
-    ends |= k % 2 == 0;
+struct ImageDirection {
+  float u = 0;
+  float v = 0;
+};
+
+/// For every set of neighbours beyond, a bit for each: the direction in the image in which the surface ends, the sum of
+/// theirs. Zero where none shares an edge with the cell.
+constexpr std::array<ImageDirection, 256> outward_of = [] {
+  constexpr float diagonal = 0.70710678F;
+  std::array<ImageDirection, 256> outward{};
+  for (std::size_t beyond = 0; beyond < outward.size(); ++beyond) {
+    if ((beyond & 0b01010101U) == 0) continue;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      if ((beyond >> k & 1U) == 0) continue;
+      const float length = k % 2 == 0 ? 1.0F : diagonal;
+      outward[beyond].u += length * static_cast<float>(ring[k][0]);
+      outward[beyond].v += length * static_cast<float>(ring[k][1]);
+    }
   }
-  return ends ? sum : Eigen::Vector2f::Zero();
+  return outward;
+}();
+
+/// The direction in which the surface ends at (u, v); zero where it goes on.
+Eigen::Vector2f outward(const SceneMap& map, const RenderedModel& model, int u, int v) {
+  const Camera& camera = model.camera;
+  const float* const cell = &model.front[camera.index(u, v)];
+  const float step = map.surface_step(*cell);
+  const bool inner = u > 0 && v > 0 && u + 1 < camera.width && v + 1 < camera.height;
+  unsigned beyond = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const bool contained = inner || camera.contains(u + ring[k][0], v + ring[k][1]);
+    const float depth = contained ? cell[ring[k][1] * camera.width + ring[k][0]] : 0.0F;
+    beyond |= (depth == 0.0F || depth - *cell >= step ? 1U : 0U) << k;
+  }
+  return {outward_of[beyond].u, outward_of[beyond].v};
 }
 
 constexpr int block = 64;
