@@ -11,30 +11,30 @@ namespace {
 
 /// Bridges the gaps of a row with the nearer of the depths at their ends: in the shadow of a wall anything down to its
 /// rim may be wall. Only a row in which nothing was measured stays empty.
-void bridge_row(std::span<MapCell> row) {
+void bridge_row(std::span<float> row) {
   std::size_t begin = 0;  // Of the gap in hand.
   for (std::size_t i = 0; i < row.size(); ++i) {
-    const float depth = row[i].background;
+    const float depth = row[i];
     if (depth <= 0.0F) continue;
-    const float nearest = begin == 0 ? depth : std::min(row[begin - 1].background, depth);
-    for (; begin < i; ++begin) row[begin].background = nearest;
+    const float nearest = begin == 0 ? depth : std::min(row[begin - 1], depth);
+    for (; begin < i; ++begin) row[begin] = nearest;
     begin = i + 1;
   }
-  for (std::size_t i = begin; begin > 0 && i < row.size(); ++i) row[i].background = row[begin - 1].background;
+  for (std::size_t i = begin; begin > 0 && i < row.size(); ++i) row[i] = row[begin - 1];
 }
 
 /// Bridges empty rows likewise, once all others are full.
-void bridge_empty_rows(SceneMap& map) {
-  const auto row = [&](int v) { return &map.at(0, v); };
+void bridge_empty_rows(const Camera& camera, std::span<float> depths) {
+  const auto row = [&](int v) { return &depths[camera.index(0, v)]; };
   int begin = 0;
-  for (int v = 0; v <= map.camera.height; ++v) {
-    const bool end = v == map.camera.height;
-    if (!end && row(v)->background <= 0.0F) continue;
+  for (int v = 0; v <= camera.height; ++v) {
+    const bool end = v == camera.height;
+    if (!end && *row(v) <= 0.0F) continue;
     for (; begin < v; ++begin) {
-      for (int u = 0; u < map.camera.width; ++u) {
-        const float above = begin > 0 ? row(begin - 1)[u].background : 0.0F;
-        const float below = end ? above : row(v)[u].background;
-        row(begin)[u].background = begin > 0 ? std::min(above, below) : below;
+      for (int u = 0; u < camera.width; ++u) {
+        const float above = begin > 0 ? row(begin - 1)[u] : 0.0F;
+        const float below = end ? above : row(v)[u];
+        row(begin)[u] = begin > 0 ? std::min(above, below) : below;
       }
     }
     begin = v + 1;
@@ -43,13 +43,11 @@ void bridge_empty_rows(SceneMap& map) {
 
 /// Marks what does not stand out from the nearest background around each cell of row `v`: at a wall the depth of the
 /// background is not sharp.
-void judge_row(const SceneMap& empty_bin, int v, float margin, SceneMap& map) {
-  const MapCell* const here = &empty_bin.at(0, v);
-  const MapCell* const above = v > 0 ? here - map.camera.width : here;
-  const MapCell* const below = v + 1 < map.camera.height ? here + map.camera.width : here;
-  const auto nearest_in_column = [&](int u) {
-    return std::min(std::min(above[u].background, here[u].background), below[u].background);
-  };
+void judge_row(std::span<const float> empty_depths, int v, float margin, SceneMap& map) {
+  const float* const here = &empty_depths[map.camera.index(0, v)];
+  const float* const above = v > 0 ? here - map.camera.width : here;
+  const float* const below = v + 1 < map.camera.height ? here + map.camera.width : here;
+  const auto nearest_in_column = [&](int u) { return std::min(std::min(above[u], here[u]), below[u]); };
   float before = nearest_in_column(0);
   float at = before;
   for (int u = 0; u < map.camera.width; ++u) {
@@ -125,17 +123,18 @@ SupportPlane polished(const SupportPlane& plane, std::span<const Vector3> sample
 
 }  // namespace
 
-void remove_background_by_frame(SceneMap& empty_bin, float margin, const Execution& execution, SceneMap& map) {
+void remove_background_by_frame(std::span<float> empty_depths, float margin, const Execution& execution,
+                                SceneMap& map) {
   const auto width = static_cast<std::size_t>(map.camera.width);
   parallel_for(map.camera.height, execution, 8, [&](int v) {
-    const std::span<MapCell> empty = empty_bin.cells.subspan(empty_bin.camera.index(0, v), width);
+    const std::span<float> empty = empty_depths.subspan(map.camera.index(0, v), width);
     MapCell* const cells = &map.at(0, v);
-    for (std::size_t u = 0; u < width; ++u) cells[u].background = empty[u].background = empty[u].point.z();
+    for (std::size_t u = 0; u < width; ++u) cells[u].background = empty[u];
     bridge_row(empty);
   });
   if (execution.late()) return;
-  bridge_empty_rows(empty_bin);
-  parallel_for(map.camera.height, execution, 8, [&](int v) { judge_row(empty_bin, v, margin, map); });
+  bridge_empty_rows(map.camera, empty_depths);
+  parallel_for(map.camera.height, execution, 8, [&](int v) { judge_row(empty_depths, v, margin, map); });
 }
 
 SupportPlane remove_background_by_plane(float margin, float slack, const Execution& execution, SceneMap& map) {

@@ -1,26 +1,10 @@
 #pragma once
 
-#include <algorithm>
-#include <cstring>
-
 #include "core/detect/verify.hpp"
+#include "core/geometry/image_lanes.hpp"
 #include "core/geometry/lane_vectors.hpp"
 
 namespace graspd {
-
-/// The depths of a rendered image at four cells side by side, from (u, v) on; 0 beyond it.
-[[nodiscard]] inline Lanes rendered_depths(const Camera& camera, std::span<const float> image, int u, int v) {
-  constexpr auto lanes = static_cast<int>(lane_count);
-  Lanes depths{};
-  if (u >= 0 && u + lanes <= camera.width && v >= 0 && v < camera.height) {
-    std::memcpy(&depths, &image[camera.index(u, v)], sizeof depths);
-  } else {
-    for (int i = 0; i < lanes; ++i) {
-      if (camera.contains(u + i, v)) depths[static_cast<std::size_t>(i)] = image[camera.index(u + i, v)];
-    }
-  }
-  return depths;
-}
 
 /// Depths of the model at four cells side by side and at their neighbours (metres); 0 where it is not.
 struct ModelCells {
@@ -28,11 +12,11 @@ struct ModelCells {
 
   /// The cells from (u, v) of the model's rectangle on.
   ModelCells(const RenderedModel& model, int u, int v)
-      : here(rendered_depths(model.camera, model.front, u, v)),
-        right(rendered_depths(model.camera, model.front, u + 1, v)),
-        left(rendered_depths(model.camera, model.front, u - 1, v)),
-        below(rendered_depths(model.camera, model.front, u, v + 1)),
-        above(rendered_depths(model.camera, model.front, u, v - 1)) {}
+      : here(pixels_at(model.camera, model.front, u, v)),
+        right(pixels_at(model.camera, model.front, u + 1, v)),
+        left(pixels_at(model.camera, model.front, u - 1, v)),
+        below(pixels_at(model.camera, model.front, u, v + 1)),
+        above(pixels_at(model.camera, model.front, u, v - 1)) {}
 };
 
 /// Four cells of the map side by side.

@@ -42,7 +42,8 @@ PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacit
   PreprocessWorkspace workspace;
   const std::size_t cells = capacity.map_cells;
   workspace.map_cells = arena.take<MapCell>(cells, "scene map");
-  workspace.empty_cells = arena.take<MapCell>(cells, "scene map");
+  workspace.depths = arena.take<float>(cells, "scene map");
+  workspace.empty_depths = arena.take<float>(cells, "scene map");
   workspace.segments.parent = arena.take<std::uint32_t>(cells, "segmentation");
   workspace.segments.size = arena.take<std::uint32_t>(cells, "segmentation");
   workspace.edges.nearest = arena.take<std::uint32_t>(cells, "edges");
@@ -58,17 +59,17 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float det
   Scene scene;
   const int stride = stride_for(frame, detail, parameters.cells_per_detail, workspace.map_cells.size());
   scene.map = make_scene_map(frame.camera, stride, workspace.map_cells);
-  bin_frame(frame, execution, scene.map);
+  bin_frame(frame, execution, workspace.depths, scene.map);
   if (execution.late()) return scene;
   scene.map.edge_blur = measure_edge_blur(frame, detail, execution);
   if (execution.late()) return scene;
 
   const bool by_frame = parameters.background == BackgroundMode::automatic && !empty_bin.depth.empty();
   if (by_frame) {
-    SceneMap empty_map = make_scene_map(empty_bin.camera, stride, workspace.empty_cells);
-    bin_frame(empty_bin, execution, empty_map);
+    const SceneMap layout = make_scene_map(empty_bin.camera, stride, {});
+    bin_depths(empty_bin, execution, layout, workspace.depths, workspace.empty_depths);
     if (execution.late()) return scene;
-    remove_background_by_frame(empty_map, parameters.background_margin, execution, scene.map);
+    remove_background_by_frame(workspace.empty_depths, parameters.background_margin, execution, scene.map);
   } else if (parameters.background == BackgroundMode::automatic || parameters.background == BackgroundMode::plane) {
     scene.plane =
         remove_background_by_plane(parameters.background_margin, parameters.plane_slack * detail, execution, scene.map);

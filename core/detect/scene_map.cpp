@@ -1,9 +1,9 @@
 #include "core/detect/scene_map.hpp"
 
 #include <algorithm>
-#include <array>
 
-#include "core/geometry/lanes.hpp"
+#include "core/geometry/image_lanes.hpp"
+#include "core/geometry/lane_vectors.hpp"
 
 namespace graspd {
 
@@ -104,14 +104,18 @@ WholeBlock read_block(const DepthFrame& frame, int stride, int mu, int mv) {
   return block;
 }
 
-/// The blocks from (mu, mv) on, one in each lane, as read_block() reads each; all of them whole.
-std::array<WholeBlock, lane_count> read_blocks(const DepthFrame& frame, int stride, int mu, int mv) {
+/// The same of the blocks from (mu, mv) on, one in each lane; all of them whole.
+struct WholeBlocks {
   Lanes low = Lanes{} + furthest_depth;
   Lanes high = Lanes{} + nearest_depth;
-  Lanes sum_u{};
-  Lanes sum_v{};
-  Lanes sum_z{};
   LaneMask count{};
+  Lanes u{};
+  Lanes v{};
+  Lanes z{};
+};
+
+WholeBlocks read_blocks(const DepthFrame& frame, int stride, int mu, int mv) {
+  WholeBlocks blocks;
   const auto width = static_cast<float>(stride);
   const Lanes first_u = static_cast<float>(mu * stride) + Lanes{0.0F, width, 2.0F * width, 3.0F * width};
   for (int v = mv * stride; v < (mv + 1) * stride; ++v) {
@@ -119,32 +123,88 @@ std::array<WholeBlock, lane_count> read_blocks(const DepthFrame& frame, int stri
     for (int k = 0; k < stride; ++k) {
       const Lanes z{row[k], row[stride + k], row[2 * stride + k], row[3 * stride + k]};
       const LaneMask measured = (z >= nearest_depth) & (z <= furthest_depth);
-      low = (measured & (z < low)) ? z : low;
-      high = (measured & (z > high)) ? z : high;
-      count -= measured;
-      sum_u += measured ? first_u + static_cast<float>(k) : Lanes{};
-      sum_v += measured ? Lanes{} + static_cast<float>(v) : Lanes{};
-      sum_z += measured ? z : Lanes{};
+      blocks.low = (measured & (z < blocks.low)) ? z : blocks.low;
+      blocks.high = (measured & (z > blocks.high)) ? z : blocks.high;
+      blocks.count -= measured;
+      blocks.u += measured ? first_u + static_cast<float>(k) : Lanes{};
+      blocks.v += measured ? Lanes{} + static_cast<float>(v) : Lanes{};
+      blocks.z += measured ? z : Lanes{};
     }
   }
-  std::array<WholeBlock, lane_count> blocks;
-  for (std::size_t i = 0; i < lane_count; ++i)
-    blocks[i] = {{low[i], high[i], count[i]}, {sum_u[i], sum_v[i], sum_z[i]}};
   return blocks;
 }
 
-bool supported(const SceneMap& map, int u, int v) {
-  const float z = map.at(u, v).point.z();
-  const float step = map.surface_step(z);
-  int support = 0;
-  for (int dv = -1; dv <= 1; ++dv) {
-    for (int du = -1; du <= 1; ++du) {
-      if ((du == 0 && dv == 0) || !map.camera.contains(u + du, v + dv)) continue;
-      const float other = map.at(u + du, v + dv).point.z();
-      support += other > 0.0F && std::abs(other - z) < step * (du != 0 && dv != 0 ? 1.5F : 1.0F) ? 1 : 0;
+/// Bins one block by itself.
+Vector3 bin_block(const DepthFrame& frame, const SceneMap& layout, int mu, int mv) {
+  const int enough = layout.enough_pixels();
+  const WholeBlock block = read_block(frame, layout.stride, mu, mv);
+  if (block.range.count < enough) return Vector3::Zero();
+  const float step = layout.surface_step(block.range.low);
+  if (block.range.high - block.range.low <= step) return block.sum.mean(frame.camera, block.range.count);
+  const DepthRange range = larger_surface(frame, layout.stride, mu, mv, step);
+  return range.count >= enough ? mean_point(frame, layout.stride, mu, mv, range) : Vector3(Vector3::Zero());
+}
+
+/// Bins the blocks from (mu, mv) on, all of them whole.
+LaneVectors bin_blocks(const DepthFrame& frame, const SceneMap& layout, int mu, int mv) {
+  const Camera& camera = frame.camera;
+  const WholeBlocks blocks = read_blocks(frame, layout.stride, mu, mv);
+  const LaneMask full = blocks.count >= layout.enough_pixels();
+  const LaneMask steep = full & (blocks.high - blocks.low > 4.0F * (blocks.low / layout.camera.fx));
+  const Lanes scale = full ? 1.0F / __builtin_convertvector(blocks.count, Lanes) : Lanes{};
+  const Lanes z = blocks.z * scale;
+  LaneVectors points{(blocks.u * scale - camera.cx) / camera.fx * z, (blocks.v * scale - camera.cy) / camera.fy * z, z};
+  if (any(steep)) {
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      if (steep[i] != 0) points.set(i, bin_block(frame, layout, mu + static_cast<int>(i), mv));
     }
   }
-  return support >= 3;
+  return points;
+}
+
+/// Calls store(u, v, point) for every block; z = 0: nothing was measured.
+template <class Store>
+void for_each_block(const DepthFrame& frame, const SceneMap& layout, const Execution& execution, Store store) {
+  constexpr auto lanes = static_cast<int>(lane_count);
+  parallel_for(layout.camera.height, execution, 8, [&](int v) {
+    const int whole_blocks = (v + 1) * layout.stride <= frame.camera.height ? frame.camera.width / layout.stride : 0;
+    const int in_lanes = whole_blocks / lanes * lanes;
+    for (int u = 0; u < in_lanes; u += lanes) {
+      const LaneVectors points = bin_blocks(frame, layout, u, v);
+      for (int i = 0; i < lanes; ++i) store(u + i, v, points[static_cast<std::size_t>(i)]);
+    }
+    for (int u = in_lanes; u < layout.camera.width; ++u) store(u, v, bin_block(frame, layout, u, v));
+  });
+}
+
+/// Which of the four cells from (u, v) on were measured and have neighbours on the same surface.
+LaneMask supported(const SceneMap& layout, std::span<const float> depths, int u, int v) {
+  const Lanes z = pixels_at(layout.camera, depths, u, v);
+  const Lanes step = 4.0F * (z / layout.camera.fx);
+  LaneMask support{};
+  for (int dv = -1; dv <= 1; ++dv) {
+    for (int du = -1; du <= 1; ++du) {
+      if (du == 0 && dv == 0) continue;
+      const Lanes other = pixels_at(layout.camera, depths, u + du, v + dv);
+      const Lanes reach = du != 0 && dv != 0 ? step * 1.5F : step;
+      support -= (other > 0.0F) & (magnitude(other - z) < reach);
+    }
+  }
+  return (z > 0.0F) & (support >= 3);
+}
+
+/// Calls store(u, v, whether it is supported) for every cell.
+template <class Store>
+void for_each_supported(const SceneMap& layout, std::span<const float> depths, const Execution& execution,
+                        Store store) {
+  constexpr auto lanes = static_cast<int>(lane_count);
+  parallel_for(layout.camera.height, execution, 8, [&](int v) {
+    for (int u = 0; u < layout.camera.width; u += lanes) {
+      const LaneMask four = supported(layout, depths, u, v);
+      for (int i = 0; i < std::min(lanes, layout.camera.width - u); ++i)
+        store(u + i, v, four[static_cast<std::size_t>(i)] != 0);
+    }
+  });
 }
 
 }  // namespace
@@ -164,41 +224,27 @@ SceneMap make_scene_map(const Camera& camera, int stride, std::span<MapCell> sto
   return map;
 }
 
-void bin_frame(const DepthFrame& frame, const Execution& execution, SceneMap& map) {
-  constexpr auto lanes = static_cast<int>(lane_count);
-  const int enough = std::max(1, map.stride * map.stride / 3);
-  parallel_for(map.camera.height, execution, 8, [&](int v) {
-    std::array<WholeBlock, lane_count> blocks;
-    const int whole_blocks = (v + 1) * map.stride <= frame.camera.height ? frame.camera.width / map.stride : 0;
-    const int in_lanes = whole_blocks / lanes * lanes;
-    for (int u = 0; u < map.camera.width; ++u) {
-      MapCell& cell = map.at(u, v);
-      cell = MapCell{};
-      if (u < in_lanes && u % lanes == 0) blocks = read_blocks(frame, map.stride, u, v);
-      const WholeBlock block =
-          u < in_lanes ? blocks[static_cast<std::size_t>(u % lanes)] : read_block(frame, map.stride, u, v);
-      if (block.range.count < enough) continue;
-      const float step = map.surface_step(block.range.low);
-      if (block.range.high - block.range.low <= step) {
-        cell.point = block.sum.mean(frame.camera, block.range.count);
-        continue;
-      }
-      const DepthRange range = larger_surface(frame, map.stride, u, v, step);
-      if (range.count >= enough) cell.point = mean_point(frame, map.stride, u, v, range);
-    }
+void bin_frame(const DepthFrame& frame, const Execution& execution, std::span<float> depths, SceneMap& map) {
+  for_each_block(frame, map, execution, [&](int u, int v, const Vector3& point) {
+    MapCell& cell = map.at(u, v);
+    cell = MapCell{};
+    cell.point = point;
+    depths[map.camera.index(u, v)] = point.z();
   });
-  // Support is judged on the map as it was, so cells are marked first and emptied afterwards.
-  parallel_for(map.camera.height, execution, 8, [&](int v) {
-    for (int u = 0; u < map.camera.width; ++u) {
-      MapCell& cell = map.at(u, v);
-      cell.foreground = cell.measured() && supported(map, u, v) ? 1 : 0;
-    }
+  for_each_supported(map, depths, execution, [&](int u, int v, bool supported) {
+    MapCell& cell = map.at(u, v);
+    cell.foreground = supported ? 1 : 0;
+    if (!supported) cell.point.setZero();
   });
-  parallel_for(map.camera.height, execution, 8, [&](int v) {
-    for (int u = 0; u < map.camera.width; ++u) {
-      MapCell& cell = map.at(u, v);
-      if (cell.foreground == 0) cell.point.setZero();
-    }
+}
+
+void bin_depths(const DepthFrame& frame, const Execution& execution, const SceneMap& layout,
+                std::span<float> unsupported, std::span<float> depths) {
+  for_each_block(frame, layout, execution,
+                 [&](int u, int v, const Vector3& point) { unsupported[layout.camera.index(u, v)] = point.z(); });
+  for_each_supported(layout, unsupported, execution, [&](int u, int v, bool supported) {
+    const std::size_t index = layout.camera.index(u, v);
+    depths[index] = supported ? unsupported[index] : 0.0F;
   });
 }
 

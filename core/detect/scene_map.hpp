@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -39,6 +40,8 @@ struct SceneMap {
     const int v = static_cast<int>(std::floor(pixel.y() + 0.5F));
     return camera.contains(u, v) ? &at(u, v) : nullptr;
   }
+  /// How many pixels of a block must have been measured.
+  [[nodiscard]] int enough_pixels() const { return std::max(1, stride * stride / 3); }
   /// Edge of a cell on a surface at depth `z` that faces the sensor (metres).
   [[nodiscard]] float footprint(float z) const { return z / camera.fx; }
   /// The largest step in depth (metres) between neighbouring cells that still is one surface, seen at up
@@ -50,8 +53,13 @@ struct SceneMap {
 [[nodiscard]] SceneMap make_scene_map(const Camera& camera, int stride, std::span<MapCell> storage);
 
 /// Bins the frame into the map: in each block the larger of the surfaces it shows is averaged; blocks
-/// that are mostly unmeasured, and cells that no neighbour supports (flying pixels), stay empty. What is in the map
-/// once it is late is of no use.
-void bin_frame(const DepthFrame& frame, const Execution& execution, SceneMap& map);
+/// that are mostly unmeasured, and cells that no neighbour supports (flying pixels), stay empty. `depths` holds those
+/// of all cells meanwhile. What is in the map once it is late is of no use.
+void bin_frame(const DepthFrame& frame, const Execution& execution, std::span<float> depths, SceneMap& map);
+
+/// Bins a frame likewise into the cells of `layout`, but for their depths (metres) alone; 0: empty. `unsupported` holds
+/// those of all cells meanwhile.
+void bin_depths(const DepthFrame& frame, const Execution& execution, const SceneMap& layout,
+                std::span<float> unsupported, std::span<float> depths);
 
 }  // namespace graspd

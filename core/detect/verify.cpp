@@ -201,7 +201,7 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
       const Lanes limit = measured.background + tolerance;
       rendered_cells.add(covered);
       halves_below.add(bounded & (cells.here > limit));
-      if (!model.back.empty()) halves_below.add(bounded & (rendered_depths(model.camera, model.back, u, v) > limit));
+      if (!model.back.empty()) halves_below.add(bounded & (pixels_at(model.camera, model.back, u, v) > limit));
       Verdicts verdicts = judge_cells(measured, cells, model.camera, u, v, tolerance);
       if (!claimed.empty()) yield_to_claims(map, model, claimed, covered, u, v, verdicts);
       const std::array<LaneMask, 4> open = open_sides(cells);
