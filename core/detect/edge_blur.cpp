@@ -50,21 +50,19 @@ float measure_edge_blur(const DepthFrame& frame, float detail, const Execution& 
   const auto reach_at = [&](float depth) {
     return std::max(3, static_cast<int>(std::lround(reach_details * detail * camera.fx / depth)));
   };
-  const auto take_line = [&](int first_u, int first_v, int du, int dv, int length, float focal_length) {
-    const std::ptrdiff_t pitch = du + static_cast<std::ptrdiff_t>(dv) * camera.width;
-    const float* line = &frame.depth[camera.index(first_u, first_v)];
-    for (int k = 0; k < length; ++k) {
-      const float depth = line[k * pitch];
-      if (depth <= 0.0F) continue;
-      const int reach = reach_at(depth);
-      if (k >= 2 * reach && k + 2 * reach < length)
-        take_step(line + k * pitch, pitch, reach, detail, focal_length, sum);
-    }
+  // `k` is the pixel's place on its line.
+  const auto take_pixel = [&](int u, int v, std::ptrdiff_t pitch, int k, int length, float focal_length) {
+    const float* const pixel = &frame.depth[camera.index(u, v)];
+    if (*pixel <= 0.0F) return;
+    const int reach = reach_at(*pixel);
+    if (k >= 2 * reach && k + 2 * reach < length) take_step(pixel, pitch, reach, detail, focal_length, sum);
   };
-  for (int v = 0; v < camera.height && !execution.late(); v += line_step)
-    take_line(0, v, 1, 0, camera.width, camera.fx);
-  for (int u = 0; u < camera.width && !execution.late(); u += line_step)
-    take_line(u, 0, 0, 1, camera.height, camera.fy);
+  for (int v = 0; v < camera.height && !execution.late(); ++v) {
+    if (v % line_step == 0) {
+      for (int u = 0; u < camera.width; ++u) take_pixel(u, v, 1, u, camera.width, camera.fx);
+    }
+    for (int u = 0; u < camera.width; u += line_step) take_pixel(u, v, camera.width, v, camera.height, camera.fy);
+  }
   return sum.steps < fewest_steps ? 0.0F : static_cast<float>(sum.width / sum.steps);
 }
 
