@@ -116,6 +116,7 @@ void ModbusServer::Loop::run() {
     if (ready < 0 && errno != EINTR) std::this_thread::sleep_for(std::chrono::nanoseconds(longest_wait_ns));
     const std::int64_t now_ns = monotonic_ns();
     session_->on_news(mailbox_.take(), now_ns);
+    session_->on_delivered(monotonic_ns());
     const std::span<ModbusClientSlot> slots = clients_.slots();
     for (ModbusClientSlot& client : slots) {
       if (client.is_open() && client.filled > 0) serve_buffered(client, now_ns);

@@ -1,6 +1,7 @@
 #include "drivers/plc/plc_session.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "drivers/plc/pick_list.hpp"
 #include "drivers/plc/request_words.hpp"
@@ -57,6 +58,7 @@ void PlcSession::on_found(std::int64_t now_ns) {
 
 void PlcSession::on_lost(std::int64_t now_ns) {
   take(HandshakeEvent::of_lost(), now_ns);
+  delivery_from_ns_.reset();
   publish(now_ns);
 }
 
@@ -76,7 +78,10 @@ void PlcSession::on_answer(const ResultBlock& result, std::int64_t now_ns) {
       take(HandshakeEvent::of_answer(answer.sequence, answer.code, has_pick(answer)), now_ns);
   // A PLC that reads the code alone must not be led to a pick either.
   if (actions.commit && has_pick(answer) && !state_.result_valid) answer.code = ResultCode::plc_silent;
-  if (actions.commit) commit(answer);
+  if (actions.commit) {
+    commit(answer);
+    delivery_from_ns_ = state_.started_ns + detection_ns(answer);
+  }
   if (actions.drop) {
     log_event(LogLevel::notice, "N124", "answer dropped: nobody waits for it any more sequence=%u result=%.*s",
               unsigned{answer.sequence}, static_cast<int>(result_code_name(answer.code).size()),
@@ -95,6 +100,14 @@ void PlcSession::on_news(const WorkerNews& news, std::int64_t now_ns) {
   on_time(news.camera_ok, news.model_loaded, now_ns);
   if (news.capture_done != 0) on_capture_done(news.capture_done, now_ns);
   if (news.has_answer) on_answer(news.answer, now_ns);
+}
+
+void PlcSession::on_delivered(std::int64_t now_ns) {
+  if (!delivery_from_ns_) return;
+  constexpr std::int64_t most = std::numeric_limits<std::uint16_t>::max();
+  const std::int64_t overhead_us = std::clamp<std::int64_t>((now_ns - *delivery_from_ns_) / 1000, 0, most);
+  put_live(live_register::answer_overhead, static_cast<std::uint16_t>(overhead_us));
+  delivery_from_ns_.reset();
 }
 
 void PlcSession::set_clients(std::uint16_t clients) { put_live(live_register::clients, clients); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "drivers/plc/handshake.hpp"
@@ -39,6 +40,8 @@ class PlcSession {
   void on_time(bool camera_ok, bool model_loaded, std::int64_t now_ns);
   /// What the worker had to say since the last time, in the order in which it matters.
   void on_news(const WorkerNews& news, std::int64_t now_ns);
+  /// What is in the registers has reached the place where the PLC reads it.
+  void on_delivered(std::int64_t now_ns);
   void set_clients(std::uint16_t clients);
 
   /// The request that the PLC still waits for; 0: none.
@@ -58,6 +61,8 @@ class PlcSession {
   HandshakeState state_;
   PoseConvention request_convention_;
   std::uint16_t request_id_ = 0;
+  /// An answer is on its way: what it takes beside capture and detection counts from here.
+  std::optional<std::int64_t> delivery_from_ns_;
   LogThrottle throttle_;
 };
 

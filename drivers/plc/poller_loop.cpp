@@ -54,7 +54,11 @@ void ModbusPoller::Loop::run() {
       }
       session_.set_clients(1);
       if (done.ok()) done = writer_.write(plc_, input_registers_, wants_list_);
-      if (!done.ok()) lose(done, monotonic_ns());
+      if (done.ok()) {
+        session_.on_delivered(monotonic_ns());
+      } else {
+        lose(done, monotonic_ns());
+      }
     }
     mailbox_.set_wanted(session_.wanted());
     progress_.fetch_add(1, std::memory_order_relaxed);

@@ -157,7 +157,8 @@ inline constexpr std::uint16_t triggers_accepted = 204;
 inline constexpr std::uint16_t triggers_refused = 205;
 inline constexpr std::uint16_t last_refusal = 206;
 inline constexpr std::uint16_t clients = 207;
-inline constexpr std::uint16_t count = 8;
+inline constexpr std::uint16_t answer_overhead = 208;
+inline constexpr std::uint16_t count = 9;
 }  // namespace live_register
 
 /// Input registers lie at their own addresses; a PLC that reads holding registers only finds the same

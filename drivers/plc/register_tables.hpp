@@ -105,6 +105,7 @@ inline constexpr std::array<RegisterEntry, live_register::count> live_table{{
     {live_register::triggers_refused, 1, "triggers_refused", "uint16"},
     {live_register::last_refusal, 1, "last_refusal", "uint16"},
     {live_register::clients, 1, "clients", "uint16"},
+    {live_register::answer_overhead, 1, "answer_overhead", "uint16"},
 }};
 
 /// Offsets in a list; `type` is that of the floating-point list.

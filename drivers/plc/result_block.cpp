@@ -47,6 +47,15 @@ bool has_poses(const ResultBlock& result) {
 
 bool has_pick(const ResultBlock& result) { return has_poses(result) && result.code == ResultCode::ok; }
 
+std::int64_t detection_ns(const ResultBlock& result) {
+  double seconds = 0.0;
+  for (const BlockStage stage : {BlockStage::capture, BlockStage::preprocess, BlockStage::match, BlockStage::cluster,
+                                 BlockStage::refine, BlockStage::verify}) {
+    seconds += static_cast<double>(result.stage_time[static_cast<std::size_t>(stage)]);
+  }
+  return std::llround(seconds * 1e9);
+}
+
 void encode(const ResultBlock& result, const BlockFormat& format, std::span<std::uint16_t> words) {
   begin_coherent(words.first(block::count), result.sequence);
   words[block::request_id] = result.request_id;

@@ -65,6 +65,9 @@ struct ResultBlock {
 /// True when the block carries poses: a pick, or that of a dry run, which is for eyes only.
 [[nodiscard]] bool has_poses(const ResultBlock& result);
 
+/// How much of the time that an answer took went to capture and detection, nanoseconds.
+[[nodiscard]] std::int64_t detection_ns(const ResultBlock& result);
+
 /// Writes `result` to the first block::count of `words`. Values beyond what a register holds are cut to
 /// its range.
 void encode(const ResultBlock& result, const BlockFormat& format, std::span<std::uint16_t> words);

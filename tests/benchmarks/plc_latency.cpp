@@ -1,15 +1,17 @@
-// How long an answer takes beside capture and detection: from before the trigger is sent until a client has read
-// `done`, less the times of those stages. That is more than from the trigger seen to the registers written, by the
-// network both ways and the client's own polling. With --parts, grasps are chosen in piles of so many parts that are
-// taken as detected, after the caches were emptied as a detection would leave them.
+// How long an answer takes beside capture and detection: in the daemon, from the trigger seen to the registers written;
+// and as a client sees it, from before the trigger is sent until it has read `done`, which adds the network both ways
+// and the client's own polling. With --parts, grasps are chosen in piles of so many parts that are taken as detected,
+// after the caches were emptied as a detection would leave them.
+
+#include <sched.h>
+#include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 #include <atomic>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <thread>
 #include <utility>
@@ -23,54 +25,12 @@
 #include "firmware_app/memory_block.hpp"
 #include "firmware_app/memory_plan.hpp"
 #include "firmware_app/pick_cycle.hpp"
-#include "tests/collisions/pile_scene.hpp"
-#include "tests/core/grasp/grasp_memory.hpp"
+#include "tests/benchmarks/detected_piles.hpp"
+#include "tests/benchmarks/latency_table.hpp"
+#include "tests/benchmarks/thread_seconds.hpp"
 
 namespace graspd {
 namespace {
-
-/// Piles whose parts were all detected, one after the other in the bin of a camera.
-class DetectedPiles {
- public:
-  DetectedPiles(std::size_t parts, std::size_t picks) : picks_(picks) {
-    const PileBin bin{0.25F, 0.19F};
-    const Camera camera{1280, 960, 1100.0F, 1100.0F, 639.5F, 479.5F};
-    for (std::size_t i = 0; i < shapes_.size(); ++i) {
-      scenes_[i] = pile_scene(shapes_[i], parts + parts / 2, bin, camera, SensorStrain::medium, 3);
-      scenes_[i].detected.resize(std::min(parts, scenes_[i].detected.size()));
-    }
-  }
-
-  /// The answer to a request; `excluded_ns`: what stands for the detection, whose memory displaces the caches.
-  [[nodiscard]] ResultBlock answer(const PlcRequest& request, std::int64_t& excluded_ns) {
-    const std::int64_t start = monotonic_ns();
-    for (std::size_t i = 0; i < other_memory_.size(); i += 64) ++other_memory_[i];
-    excluded_ns = monotonic_ns() - start;
-    const std::size_t number = request.sequence % scenes_.size();
-    PileScene& scene = scenes_[number];
-    const Bank bank = shapes_[number].bank();
-    Detections detections;
-    detections.instances = scene.detected;
-    begin_choice(scene.frame(), detections, {&bank, 1}, scene.parameters, memory_.workspace);
-    const PickResult picks = find_picks(memory_.workspace, picks_);
-    ResultBlock block;
-    block.sequence = request.sequence;
-    block.request_id = request.request_id;
-    block.code = picks.found ? ResultCode::ok : ResultCode::not_pickable;
-    block.verified = true;
-    block.pick = picks.best.robot_from_tool;
-    block.approach = picks.best.robot_from_approach;
-    block.part_pose = picks.best.robot_from_part;
-    return block;
-  }
-
- private:
-  std::size_t picks_;
-  std::array<HeldShape, 3> shapes_{held_block(), held_bar(), held_bracket()};
-  std::array<PileScene, 3> scenes_;
-  GraspMemory memory_;
-  std::vector<std::uint8_t> other_memory_ = std::vector<std::uint8_t>(64U << 20U);
-};
 
 /// What a configuration names, ready to pick, or piles; without either, requests are answered at once.
 struct Equipment {
@@ -121,17 +81,7 @@ struct Equipment {
   return block;
 }
 
-/// Seconds of capture and detection in an answer.
-[[nodiscard]] double excluded(const ResultBlock& block) {
-  double sum = 0;
-  for (const BlockStage stage : {BlockStage::capture, BlockStage::preprocess, BlockStage::match, BlockStage::cluster,
-                                 BlockStage::refine, BlockStage::verify}) {
-    sum += static_cast<double>(block.stage_time[static_cast<std::size_t>(stage)]);
-  }
-  return sum;
-}
-
-/// Answers requests; `excluded_ns` is that of the last answer.
+/// Answers requests. What it knows of the last answer may be read once that has reached the client.
 class Worker {
  public:
   Worker(PlcLink& link, Equipment& equipment) : link_(link), equipment_(equipment) {
@@ -144,7 +94,18 @@ class Worker {
   }
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
-  std::atomic<std::int64_t> excluded_ns{0};
+
+  struct Times {
+    std::int64_t detection_ns = 0;
+    std::int64_t woken_after_ns = 0;
+    std::int64_t answered_after_ns = 0;  ///< After the trigger was seen, as the one above.
+    double processor_seconds = 0;
+  };
+  /// Waits until the answer to request number `id` is handed over whole.
+  [[nodiscard]] Times times_of(std::uint16_t id) const {
+    while (answered_id_ != id) std::this_thread::yield();
+    return times_;
+  }
 
  private:
   void work() {
@@ -154,26 +115,31 @@ class Worker {
     ready_ = true;
     ready_.notify_all();
     while (!stop_) {
+      const double start_seconds = thread_seconds();
       PlcRequest request;
       if (!link_.wait_for_request(request, std::chrono::milliseconds(20))) continue;
+      const std::int64_t woken_ns = monotonic_ns();
       if (!equipment_.is_real) link_.capture_done(request.sequence);
-      std::int64_t without_ns = 0;
-      const ResultBlock block = answer(request, without_ns);
-      excluded_ns = without_ns;
+      double detection_seconds = 0.0;
+      const ResultBlock block = answer(request, detection_seconds);
+      const std::int64_t answered_ns = monotonic_ns();
       link_.commit(block);
+      times_ = {detection_ns(block), woken_ns - request.received_ns, answered_ns - request.received_ns,
+                thread_seconds() - start_seconds - detection_seconds};
+      answered_id_ = request.request_id;
     }
   }
 
-  [[nodiscard]] ResultBlock answer(const PlcRequest& request, std::int64_t& without_ns) {
-    if (equipment_.piles != nullptr) return equipment_.piles->answer(request, without_ns);
+  [[nodiscard]] ResultBlock answer(const PlcRequest& request, double& detection_seconds) {
+    if (equipment_.piles != nullptr) return equipment_.piles->answer(request, detection_seconds);
     if (!equipment_.is_real) return answer_at_once(request);
-    const ResultBlock block = answer_request(equipment_.cycle, request, link_).block;
-    without_ns = static_cast<std::int64_t>(excluded(block) * 1e9);
-    return block;
+    return answer_request(equipment_.cycle, request, link_).block;
   }
 
   PlcLink& link_;
   Equipment& equipment_;
+  Times times_;
+  std::atomic<std::uint16_t> answered_id_{0};
   std::atomic<bool> stop_{false};
   std::atomic<bool> ready_{false};
   std::thread thread_;
@@ -192,38 +158,70 @@ void poll(std::uint16_t port, int rate, const std::atomic<bool>& stop) {
   }
 }
 
-[[nodiscard]] Status measure(ModbusServer& server, Equipment& equipment, int triggers, std::vector<double>& latencies) {
-  Worker worker(server, equipment);
-  Result<ModbusClient> connected = ModbusClient::connect("127.0.0.1", server.port(), {});
+/// How the kernel lets a thread run.
+struct Rank {
+  int niceness = 0;
+  int realtime = 0;  ///< Priority; 0: none.
+};
+
+/// Gives the calling thread a rank, which threads that it starts inherit.
+[[nodiscard]] Status take_rank(const Rank& rank) {
+  sched_param parameters{};
+  parameters.sched_priority = rank.realtime;
+  if (sched_setscheduler(0, rank.realtime > 0 ? SCHED_RR : SCHED_OTHER, &parameters) == 0 &&
+      setpriority(PRIO_PROCESS, 0, rank.niceness) == 0) {
+    return {};
+  }
+  return Status::format(StatusCode::internal, "the priority is not allowed: %s", strerrordesc_np(errno));
+}
+
+/// Triggers once and goes through the handshake; `id` names the request.
+[[nodiscard]] Status trigger_once(ModbusClient& plc, const Worker& worker, std::uint16_t id, LatencySample& sample) {
+  constexpr double ms = 1e-6;
+  if (Status done = plc.write_request({.request_id = id}); !done.ok()) return done;
+  const std::int64_t start = monotonic_ns();
+  if (Status done = plc.write_coil(coil::trigger, true); !done.ok()) return done;
+  for (;;) {
+    const Result<HandshakeOutputs> out = plc.read_outputs();
+    if (!out.ok()) return out.status();
+    if (out.value().done) break;
+  }
+  const std::int64_t read = monotonic_ns();
+  const Result<std::uint16_t> overhead_us = plc.read_live(live_register::answer_overhead);
+  if (!overhead_us.ok()) return overhead_us.status();
+  const Worker::Times times = worker.times_of(id);
+  sample.client = static_cast<double>(read - start - times.detection_ns) * ms;
+  sample.daemon = static_cast<double>(overhead_us.value()) * 1e-3;
+  sample.waking = static_cast<double>(times.woken_after_ns) * ms;
+  sample.answering = static_cast<double>(times.answered_after_ns - times.woken_after_ns - times.detection_ns) * ms;
+  sample.writing = sample.daemon - sample.waking - sample.answering;
+  sample.processor = times.processor_seconds * 1e3;
+  return plc.acknowledge();
+}
+
+[[nodiscard]] Status measure(std::uint16_t port, const Worker& worker, int triggers,
+                             std::vector<LatencySample>& samples) {
+  // The daemon touches its memory before the first trigger; here the first answers do.
+  constexpr int warm_ups = 6;
+  Result<ModbusClient> connected = ModbusClient::connect("127.0.0.1", port, {});
   if (!connected.ok()) return connected.status();
-  ModbusClient& plc = connected.value();
-  for (int i = 0; i < triggers; ++i) {
-    if (Status done = plc.write_request({.request_id = static_cast<std::uint16_t>(i)}); !done.ok()) return done;
-    const std::int64_t start = monotonic_ns();
-    if (Status done = plc.write_coil(coil::trigger, true); !done.ok()) return done;
-    for (;;) {
-      const Result<HandshakeOutputs> out = plc.read_outputs();
-      if (!out.ok()) return out.status();
-      if (out.value().done) break;
-    }
-    latencies.push_back(static_cast<double>(monotonic_ns() - start - worker.excluded_ns) * 1e-6);
-    if (Status done = plc.acknowledge(); !done.ok()) return done;
+  for (int i = 0; i < warm_ups + triggers; ++i) {
+    LatencySample sample;
+    const auto id = static_cast<std::uint16_t>(1 + i % 0xFFFF);
+    if (Status done = trigger_once(connected.value(), worker, id, sample); !done.ok()) return done;
+    if (i >= warm_ups) samples.push_back(sample);
   }
   return {};
 }
 
-void print(std::vector<double> latencies) {
-  std::sort(latencies.begin(), latencies.end());
-  const auto at = [&](double share) {
-    return latencies[static_cast<std::size_t>(share * static_cast<double>(latencies.size() - 1))];
-  };
-  const double mean = std::accumulate(latencies.begin(), latencies.end(), 0.0) / static_cast<double>(latencies.size());
-  std::printf("%zu triggers: mean %.3f ms, median %.3f ms, 99%% %.3f ms, 99.9%% %.3f ms, most %.3f ms\n",
-              latencies.size(), mean, at(0.5), at(0.99), at(0.999), latencies.back());
-}
+struct Load {
+  int triggers = 10000;
+  int clients = 3;
+  int rate = 100;  ///< Reads a second of each client.
+  Rank daemon;
+};
 
-[[nodiscard]] Status run(const std::string& path, std::size_t parts, std::size_t picks, int triggers, int clients,
-                         int rate) {
+[[nodiscard]] Status run(const std::string& path, std::size_t parts, std::size_t picks, const Load& load) {
   Equipment equipment;
   if (parts > 0) equipment.piles = std::make_unique<DetectedPiles>(parts, picks);
   if (!path.empty()) {
@@ -233,18 +231,22 @@ void print(std::vector<double> latencies) {
   options.bind_address = "127.0.0.1";
   options.port = 0;
   options.maximum_rate = 0;
+  if (Status taken = take_rank(load.daemon); !taken.ok()) return taken;
   Result<std::unique_ptr<ModbusServer>> server = ModbusServer::start(options);
   if (!server.ok()) return server.status();
+  const Worker worker(*server.value(), equipment);
+  if (Status taken = take_rank({}); !taken.ok()) return taken;
+  const std::uint16_t port = server.value()->port();
   std::atomic<bool> stop{false};
   std::vector<std::thread> pollers;
-  for (int i = 0; i < clients; ++i) {
-    pollers.emplace_back([&] { poll(server.value()->port(), rate, stop); });
+  for (int i = 0; i < load.clients; ++i) {
+    pollers.emplace_back([&] { poll(port, load.rate, stop); });
   }
-  std::vector<double> latencies;
-  const Status measured = measure(*server.value(), equipment, triggers, latencies);
+  std::vector<LatencySample> samples;
+  const Status measured = measure(port, worker, load.triggers, samples);
   stop = true;
   for (std::thread& poller : pollers) poller.join();
-  if (measured.ok()) print(std::move(latencies));
+  if (measured.ok() && !samples.empty()) print_latencies(samples, !equipment.is_real);
   return measured;
 }
 
@@ -256,18 +258,22 @@ int main(int argc, char** argv) {
   std::string configuration;
   std::size_t parts = 0;
   std::size_t picks = 1;
-  int triggers = 10000;
-  int clients = 3;
-  int rate = 100;
+  graspd::Load load;
   CLI::Option* const from_file =
       command_line.add_option("--config", configuration, "Pick from this configuration's frames; else answer at once");
   command_line.add_option("--parts", parts, "Choose grasps in piles of so many parts")->excludes(from_file);
   command_line.add_option("--picks", picks, "Picks wanted of each pile")->capture_default_str();
-  command_line.add_option("--triggers", triggers, "Requests")->capture_default_str();
-  command_line.add_option("--clients", clients, "Clients that read the block meanwhile")->capture_default_str();
-  command_line.add_option("--rate", rate, "Reads a second of each")->check(CLI::PositiveNumber)->capture_default_str();
+  command_line.add_option("--triggers", load.triggers, "Requests")->check(CLI::PositiveNumber)->capture_default_str();
+  command_line.add_option("--clients", load.clients, "Clients that read the block meanwhile")->capture_default_str();
+  command_line.add_option("--rate", load.rate, "Reads a second of each")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command_line.add_option("--nice", load.daemon.niceness, "Niceness of the daemon's threads; the service unit has -10")
+      ->capture_default_str();
+  command_line.add_option("--realtime", load.daemon.realtime, "Real-time priority of the daemon's threads; 0: none")
+      ->capture_default_str();
   CLI11_PARSE(command_line, argc, argv);
-  const graspd::Status status = graspd::run(configuration, parts, picks, triggers, clients, rate);
+  const graspd::Status status = graspd::run(configuration, parts, picks, load);
   if (!status.ok()) std::fprintf(stderr, "%s\n", status.message().data());
   return status.ok() ? 0 : 1;
 }

@@ -76,6 +76,20 @@ TEST(ModbusPoller, GoesThroughTheHandshake) {
   EXPECT_EQ(worker.requests.load(), 10);
 }
 
+TEST(ModbusPoller, TellsHowLongAnAnswerTookOnceItIsWritten) {
+  PlcStandIn plc;
+  const auto poller = start_poller(options_for(plc));
+  Worker worker(*poller, [](const PlcRequest& request) {
+    std::this_thread::sleep_for(3ms);
+    return pick_for(request);
+  });
+  ASSERT_TRUE(shows(plc, discrete_input::ready));
+  EXPECT_EQ(plc.live(live_register::answer_overhead), 0);
+  plc.set_coil(coil::trigger, true);
+  ASSERT_TRUE(shows(plc, discrete_input::done));
+  EXPECT_TRUE(comes([&] { return plc.live(live_register::answer_overhead) >= 3000; }));
+}
+
 TEST(ModbusPoller, WritesTheListWhenMoreThanOneResultIsWanted) {
   PlcStandIn plc;
   const auto poller = start_poller(options_for(plc));

@@ -30,6 +30,24 @@ TEST(ModbusServer, GoesThroughTheHandshake) {
   EXPECT_EQ(worker.requests.load(), 20);
 }
 
+TEST(ModbusServer, TellsHowLongAnAnswerTookWithoutTheDetection) {
+  static constexpr std::int64_t detection_ns = 30'000'000;
+  const auto server = start_server();
+  Worker worker(*server, [](const PlcRequest& request) {
+    std::this_thread::sleep_for(std::chrono::nanoseconds(detection_ns) + 10ms);
+    ResultBlock result = pick_for(request);
+    result.stage_time[static_cast<std::size_t>(BlockStage::match)] = static_cast<float>(detection_ns) * 1e-9F;
+    return result;
+  });
+  ModbusClient client = connect_to(*server);
+  const std::int64_t start = monotonic_ns();
+  ASSERT_TRUE(client.request_pick({}, patience).ok());
+  const std::int64_t end = monotonic_ns();
+  const std::int64_t overhead_us = client.read_live(live_register::answer_overhead).value();
+  EXPECT_GE(overhead_us, 9'999);
+  EXPECT_LE(overhead_us, (end - start - detection_ns) / 1000 + 1);
+}
+
 TEST(ModbusServer, PassesOnWhatThePlcAskedFor) {
   const auto server = start_server();
   ModbusClient client = connect_to(*server);
