@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "drivers/system/prompt_thread.hpp"
 #include "firmware_app/answer_text.hpp"
 
 namespace graspd {
@@ -24,6 +25,7 @@ void PickWorker::stop() {
 }
 
 void PickWorker::work() {
+  make_thread_prompt();
   readiness_ = warm_up(cycle_);
   plc_.set_model_loaded(readiness_.ok());
   plc_.set_camera_ok(readiness_.ok() && cycle_.source->connected());

@@ -14,6 +14,7 @@
 
 #include "drivers/plc/request_check.hpp"
 #include "drivers/system/clock.hpp"
+#include "drivers/system/prompt_thread.hpp"
 
 namespace graspd {
 namespace {
@@ -108,6 +109,7 @@ void ModbusServer::Loop::stop() {
 }
 
 void ModbusServer::Loop::run() {
+  make_thread_prompt();
   while (!stopping_.load()) {
     std::int64_t wait_ns = longest_wait_ns;
     const std::span<pollfd> waiting = prepare_poll(monotonic_ns(), wait_ns);

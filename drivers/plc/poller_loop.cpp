@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "drivers/system/clock.hpp"
+#include "drivers/system/prompt_thread.hpp"
 
 namespace graspd {
 namespace {
@@ -42,6 +43,7 @@ void ModbusPoller::Loop::stop() {
 }
 
 void ModbusPoller::Loop::run() {
+  make_thread_prompt();
   while (!stopping_.load()) {
     wait(monotonic_ns());
     session_.on_news(mailbox_.take(), monotonic_ns());

@@ -20,6 +20,7 @@
 #include "drivers/plc/modbus_client.hpp"
 #include "drivers/plc/modbus_server.hpp"
 #include "drivers/system/clock.hpp"
+#include "drivers/system/prompt_thread.hpp"
 #include "firmware_app/frame_sources.hpp"
 #include "firmware_app/loaded_banks.hpp"
 #include "firmware_app/memory_block.hpp"
@@ -109,6 +110,7 @@ class Worker {
 
  private:
   void work() {
+    make_thread_prompt();
     if (equipment_.is_real && !warm_up(equipment_.cycle).ok()) std::printf("the warm-up failed\n");
     link_.set_camera_ok(true);
     link_.set_model_loaded(true);

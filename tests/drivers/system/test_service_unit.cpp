@@ -12,8 +12,9 @@ const std::string unit_path = std::string(GRASPD_SOURCE_DIR) + "/configs/graspd.
 TEST(ServiceUnit, AsksForWhatTheDaemonReliesOn) {
   std::ifstream file(unit_path);
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  for (const char* line : {"Type=notify", "WatchdogSec=", "Restart=on-failure", "LimitMEMLOCK=infinity",
-                           "AmbientCapabilities=CAP_NET_BIND_SERVICE", "After=network-online.target"}) {
+  for (const char* line :
+       {"Type=notify", "WatchdogSec=", "Restart=on-failure", "LimitMEMLOCK=infinity",
+        "AmbientCapabilities=CAP_NET_BIND_SERVICE", "After=network-online.target", "SystemCallFilter=sched_setattr"}) {
     EXPECT_NE(text.find(std::string("\n") + line), std::string::npos) << line;
   }
 }

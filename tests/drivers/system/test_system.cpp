@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -15,6 +18,7 @@
 #include "drivers/system/log.hpp"
 #include "drivers/system/memory_lock.hpp"
 #include "drivers/system/progress_watch.hpp"
+#include "drivers/system/prompt_thread.hpp"
 #include "drivers/system/service_notifier.hpp"
 #include "drivers/system/signals.hpp"
 
@@ -201,6 +205,42 @@ TEST(SystemDeathTest, LocksMemoryOrSaysWhichLimitToRaise) {
         std::_Exit(status.ok() || clear ? 0 : 1);
       },
       testing::ExitedWithCode(0), "");
+}
+
+/// What the kernel keeps of the calling thread's scheduling, as words of 32 bits.
+[[nodiscard]] std::array<std::uint32_t, 12> scheduling() {
+  std::array<std::uint32_t, 12> words{};
+  EXPECT_EQ(syscall(SYS_sched_getattr, 0, words.data(), sizeof(words), 0), 0);
+  return words;
+}
+
+TEST(PromptThread, AsksForShortSlicesAndForNothingElse) {
+  constexpr std::size_t policy = 1;
+  constexpr std::size_t niceness = 4;
+  constexpr std::size_t slice_ns = 6;
+  std::array<std::uint32_t, 12> before{};
+  std::array<std::uint32_t, 12> after{};
+  std::thread([&] {
+    ASSERT_EQ(setpriority(PRIO_PROCESS, 0, 3), 0);
+    before = scheduling();
+    make_thread_prompt();
+    after = scheduling();
+  }).join();
+  if (before[slice_ns] == 0) GTEST_SKIP() << "before Linux 6.12 slices are the kernel's own affair";
+  EXPECT_NE(before[slice_ns], 100'000U);
+  EXPECT_EQ(after[slice_ns], 100'000U);
+  EXPECT_EQ(after[policy], before[policy]);
+  EXPECT_EQ(after[niceness], 3U);
+}
+
+TEST(PromptThread, LeavesARealTimePolicyAlone) {
+  std::thread([] {
+    sched_param parameters{};
+    parameters.sched_priority = 5;
+    if (sched_setscheduler(0, SCHED_RR, &parameters) != 0) GTEST_SKIP() << "a real-time policy is not allowed here";
+    make_thread_prompt();
+    EXPECT_EQ(sched_getscheduler(0), SCHED_RR);
+  }).join();
 }
 
 }  // namespace
