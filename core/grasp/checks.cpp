@@ -45,8 +45,8 @@ bool closing_collides(const Attempt& attempt, float opening) {
   touching.minimum_clearance = 0.0F;
   const Sweep closing{attempt.camera_from_tool, &jaws, Vector3::Zero()};
   return sweep_collides(*attempt.around.cloud, closing, attempt.part, touching) ||
-         sweep_meets_instances(attempt.around.instances, attempt.around.spheres, attempt.around.banks, attempt.instance,
-                               closing, 0.5F * attempt.parameters.collision.minimum_clearance);
+         sweep_meets_instances(attempt.around, attempt.instance, closing,
+                               0.5F * attempt.parameters.collision.minimum_clearance);
 }
 
 bool retreat_collides(const Attempt& attempt) {
@@ -94,8 +94,7 @@ GraspRejection test_opening(const Attempt& attempt, const Gripper& gripper, cons
   const CollisionParameters& collision = attempt.parameters.collision;
   if (sweep_meets_walls(attempt.around.walls, sweep, collision.minimum_clearance)) return GraspRejection::wall;
   if (sweep_collides(*attempt.around.cloud, sweep, attempt.part, collision)) return GraspRejection::collision;
-  if (sweep_meets_instances(attempt.around.instances, attempt.around.spheres, attempt.around.banks, attempt.instance,
-                            sweep, collision.minimum_clearance)) {
+  if (sweep_meets_instances(attempt.around, attempt.instance, sweep, collision.minimum_clearance)) {
     return GraspRejection::neighbour;
   }
   if (closing_collides(attempt, opening)) return GraspRejection::closing;

@@ -5,14 +5,6 @@
 namespace graspd {
 namespace {
 
-/// About the middle of the bounding box.
-float radius_of(const Bank& bank) { return 0.5F * (bank.part->box_max - bank.part->box_min).norm(); }
-
-Vector3 centre_of(const Instance& instance, std::span<const Bank> banks) {
-  const BankPart& part = *banks[instance.bank].part;
-  return instance.camera_from_part * Vector3(0.5F * (part.box_min + part.box_max));
-}
-
 /// Whether a point lies where the box passes. Most points of a part are far off: its bounds in the part's frame tell.
 bool piece_meets_surface(const Box& box, const Vector3& motion, const RigidTransform& tool_from_part,
                          std::span<const SurfacePoint> surface) {
@@ -39,22 +31,17 @@ Box swept_gripper(const Sweep& sweep, float clearance) {
 
 }  // namespace
 
-BoundingSphere bounding_sphere(const Instance& instance, std::span<const Bank> banks) {
-  return {centre_of(instance, banks), radius_of(banks[instance.bank])};
-}
-
-bool sweep_meets_instances(std::span<const Instance> instances, std::span<const BoundingSphere> spheres,
-                           std::span<const Bank> banks, std::size_t held, const Sweep& sweep, float clearance) {
+bool sweep_meets_instances(const GraspSurroundings& around, std::size_t held, const Sweep& sweep, float clearance) {
   const RigidTransform tool_from_camera = inverse(sweep.camera_from_tool);
   const Box whole = swept_gripper(sweep, clearance);
-  for (std::size_t i = 0; i < instances.size(); ++i) {
+  for (std::size_t i = 0; i < around.instances.size(); ++i) {
     if (i == held) continue;
-    const BoundingSphere sphere = sphere_at(spheres, instances, banks, i);
+    const BoundingSphere sphere = sphere_of(around, i);
     const Vector3 centre = tool_from_camera * sphere.centre;
     const float radius = sphere.radius;
     if (distance_to_box(centre, whole) > radius) continue;
-    const Bank& bank = banks[instances[i].bank];
-    const RigidTransform tool_from_part = tool_from_camera * instances[i].camera_from_part;
+    const Bank& bank = around.banks[around.instances[i].bank];
+    const RigidTransform tool_from_part = tool_from_camera * around.instances[i].camera_from_part;
     for (const GripperPiece& piece : sweep.gripper->all()) {
       const Box box = grown(piece.box, clearance);
       if (distance_to_box(centre, swept_bounds(box, sweep.motion)) > radius) continue;
@@ -67,13 +54,12 @@ bool sweep_meets_instances(std::span<const Instance> instances, std::span<const 
 
 std::uint32_t count_neighbours(std::span<const Instance> instances, std::span<const Bank> banks, std::size_t instance,
                                float distance) {
-  const auto radius = [&](const Instance& one) { return radius_of(banks[one.bank]); };
-  const Vector3 centre = centre_of(instances[instance], banks);
+  const BoundingSphere own = bounding_sphere(instances[instance], banks);
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < instances.size(); ++i) {
     if (i == instance) continue;
-    const float apart = (centre_of(instances[i], banks) - centre).norm();
-    if (apart <= radius(instances[i]) + radius(instances[instance]) + distance) ++count;
+    const BoundingSphere other = bounding_sphere(instances[i], banks);
+    if ((other.centre - own.centre).norm() <= other.radius + own.radius + distance) ++count;
   }
   return count;
 }

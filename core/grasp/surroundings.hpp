@@ -1,13 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "core/bank/bank.hpp"
 #include "core/detect/detections.hpp"
+#include "core/grasp/bounding_sphere.hpp"
 #include "core/grasp/cloud_map.hpp"
 #include "core/grasp/hidden_space.hpp"
-#include "core/grasp/neighbours.hpp"
 #include "core/grasp/walls.hpp"
 
 namespace graspd {
@@ -27,5 +28,11 @@ struct GraspSurroundings {
   RigidTransform camera_from_robot;
   Vector3 up = Vector3::UnitZ();  ///< Against gravity, camera frame.
 };
+
+/// The sphere of instance number `instance`.
+[[nodiscard]] inline BoundingSphere sphere_of(const GraspSurroundings& around, std::size_t instance) {
+  return instance < around.spheres.size() ? around.spheres[instance]
+                                          : bounding_sphere(around.instances[instance], around.banks);
+}
 
 }  // namespace graspd

@@ -35,7 +35,7 @@ bool lies_on_bin(const BinWalls& walls, const Vector3& point) {
 bool lies_on_instance(const GraspSurroundings& around, const Vector3& point) {
   for (std::size_t i = 0; i < around.instances.size(); ++i) {
     // Further out than half the diagonal, the tolerance on all sides reaches sqrt(3) times as far.
-    const BoundingSphere sphere = sphere_at(around.spheres, around.instances, around.banks, i);
+    const BoundingSphere sphere = sphere_of(around, i);
     const float radius = sphere.radius + 1.7320508F * tolerance;
     if ((sphere.centre - point).squaredNorm() > radius * radius) continue;
     const RigidTransform& pose = around.instances[i].camera_from_part;
