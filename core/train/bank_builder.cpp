@@ -3,20 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/bank/bank_writer.hpp"
 #include "core/train/corner_normals.hpp"
 #include "core/train/generalisation.hpp"
 #include "core/train/mesh_simplification.hpp"
 #include "core/train/open_pieces.hpp"
+#include "core/train/part_likeness.hpp"
 #include "core/train/part_mesh.hpp"
 #include "core/train/ppf_table.hpp"
 #include "core/train/self_visibility.hpp"
 #include "core/train/surface_index.hpp"
 #include "core/train/surface_sampling.hpp"
-#include "core/train/symmetry_detection.hpp"
 #include "core/train/symmetry_group.hpp"
-#include "core/train/twins.hpp"
 #include "core/train/view_refinement.hpp"
 #include "core/train/view_sphere.hpp"
 #include "core/train/view_weights.hpp"
@@ -30,7 +30,6 @@ constexpr float occlusion_error = 0.0005F;  ///< Of the mesh that hides points w
 constexpr float samples_per_voxel = 24.0F;
 constexpr float least_samples = 16000.0F;
 constexpr float most_samples = 60000.0F;
-constexpr float doubtful_symmetry = 0.02F;  ///< Mean distance, as a share of the diameter.
 constexpr float least_sampling = 0.01F;
 constexpr float most_sampling = 0.2F;
 constexpr std::size_t least_cut_out_points = 30;
@@ -127,23 +126,6 @@ void add_surface(const PartMesh& mesh, const MeshView& occluder, const ViewingCo
     });
     if (visible) storage.edges.push_back(edge);
   }
-}
-
-/// The symmetries as they were given, or as they are found on the mesh; what is to be said of them.
-SymmetryGroup settle_symmetry(const PartDescription& part, const PartMesh& mesh, BankReport& report) {
-  if (part.symmetry_given) {
-    const SymmetryGroup group =
-        close_group(part.symmetry_discrete, part.symmetry_continuous, part.symmetry_axis, mesh.diameter);
-    if (const float miss = group_distance(mesh.mesh, group, mesh.diameter); miss > doubtful_symmetry) {
-      report.remarks.push_back("the symmetries given do not fit the mesh: it comes to lie " +
-                               std::to_string(std::lround(100.0F * miss)) + "% of the diameter beside itself");
-    }
-    return group;
-  }
-  SymmetryGroup group = detect_symmetry(mesh.mesh, mesh.diameter);
-  report.symmetry_proposed = true;
-  report.remarks.push_back("symmetries found on the mesh: " + describe(group));
-  return group;
 }
 
 /// Keeps as many points as are allowed, spread evenly.
@@ -250,8 +232,11 @@ Result<std::vector<std::byte>> learn_bank(const PartDescription& part, std::vect
   progress(0.05F);
 
   BankStorage storage;
-  storage.symmetry = settle_symmetry(part, mesh, report);
-  storage.twins = part.twins.has_value() ? *part.twins : find_twins(mesh.mesh, storage.symmetry, mesh.diameter);
+  PartLikeness likeness = likeness_of(part, mesh);
+  report.symmetry_proposed = likeness.proposed;
+  report.remarks.insert(report.remarks.end(), likeness.remarks.begin(), likeness.remarks.end());
+  storage.symmetry = std::move(likeness.symmetry);
+  storage.twins = std::move(likeness.twins);
   describe_part(part, mesh, parameters, storage);
   progress(0.2F);
 

@@ -132,6 +132,7 @@ TEST(BankBuilder, TwinsAreLookedForWhenNotKnown) {
   BankReport report;
   const auto file = built(part, report);
   EXPECT_EQ(read_bank(file, "box").value().twins.size(), 3U) << "half turns, of which it was told nothing";
+  EXPECT_THAT(report.remarks, testing::Contains(testing::HasSubstr("most of all turned by 180 degrees about")));
 }
 
 TEST(BankBuilder, ADoubtfulSymmetryIsRemarkedOn) {
