@@ -74,7 +74,7 @@ Instance judge(const Scene& scene, const Bank& bank, std::uint32_t bank_index, c
   const RenderedModel model = render_model(scene.map, bank, instance.camera_from_part, image.first(image.size() / 2),
                                            image.subspan(image.size() / 2));
   instance.evidence = gather_evidence(scene.map, bank, model, parameters.verify, {});
-  instance.score = score_of(instance.evidence, false);
+  instance.score = score_of(instance.evidence, 0.0F);
   if (parameters.verify.tests)
     instance.rejection = failed_test(instance.evidence, parameters.verify, bank.part->thresholds);
   return instance;

@@ -10,8 +10,10 @@ namespace {
 
 /// How much of the outline must agree: the usual share of it on a surface that could slide along itself, which fits
 /// wherever there is more of it, and less on a shape that only fits itself. A sensor that smears depth steps lets
-/// neighbours grow together.
+/// neighbours grow together. An outline of which the scene shows too little is left to the score, which counts lengths.
 float outline_weight(const Evidence& evidence) {
+  constexpr float enough = 8.0F;
+  if (evidence.decided < enough) return 0.0F;
   constexpr float sliding = 0.02F;
   constexpr float locked = 0.15F;
   constexpr float lost_by_blur = 0.66F;
@@ -20,7 +22,7 @@ float outline_weight(const Evidence& evidence) {
 
 }  // namespace
 
-float log_odds_of(const Evidence& evidence, bool in_company) {
+float log_odds_of(const Evidence& evidence, float company) {
   if (evidence.confirmed == 0.0F) return -std::numeric_limits<float>::infinity();
   // A logistic regression over the best hypotheses at each place, right or wrong by MSSD, in the simulated bins of
   // tests/benchmarks/score_evidence: of two dozen parts, before sharp and smearing sensors, with and without a known
@@ -38,13 +40,24 @@ float log_odds_of(const Evidence& evidence, bool in_company) {
   const float locked_surface = std::min(evidence.lock, 0.3F) * std::log1p(evidence.confirmed);
   // Where the surface could slide it fits closely, or is another one.
   const float sliding_misfit = evidence.misfit * std::exp(-evidence.lock / 0.05F);
+  // Where the part is not in the frame, several poses of something like it are wrong together.
+  const float sure_company = company * company * company * company;
   return -7.9F + 1.03F * log_odds(evidence.visible) - 0.56F * log_odds(evidence.measured) - 5.08F * evidence.misfit -
          6.41F * sliding_misfit - (1.58F - 1.24F * blur) * std::log1p(evidence.gap) +
-         2.01F * std::log1p(evidence.outline) + 1.77F * locked_surface + outline + (in_company ? 1.43F : 0.0F);
+         2.01F * std::log1p(evidence.outline) + 1.77F * locked_surface + outline + 1.43F * sure_company;
 }
 
-float score_of(const Evidence& evidence, bool in_company) {
-  return 1.0F / (1.0F + std::exp(-log_odds_of(evidence, in_company)));
+float score_of(const Evidence& evidence, float company) {
+  return 1.0F / (1.0F + std::exp(-log_odds_of(evidence, company)));
+}
+
+float company_of(const Instance& instance, std::span<const Instance> others) {
+  float all_wrong = 1.0F;
+  for (const Instance& other : others) {
+    const bool itself = (other.camera_from_part.translation - instance.camera_from_part.translation).isZero(0.0F);
+    if (other.bank == instance.bank && !itself) all_wrong *= 1.0F - score_of(other.evidence, 0.0F);
+  }
+  return 1.0F - all_wrong;
 }
 
 float rival_weight(float lead) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "core/bank/bank.hpp"
 #include "core/detect/detections.hpp"
@@ -8,21 +9,21 @@
 
 namespace graspd {
 
-/// How likely a pose is right, in [0, 1], from its evidence; rather too low than too high. `in_company`: another
-/// instance of the same part is surely in the frame, which makes this one much likelier than in a frame that may hold
+/// How likely a pose is right, in [0, 1], from its evidence; rather too low than too high. `company`: how likely
+/// another instance of the same part is in the frame, which makes this one much likelier than in a frame that may hold
 /// anything.
-[[nodiscard]] float score_of(const Evidence& evidence, bool in_company);
+[[nodiscard]] float score_of(const Evidence& evidence, float company);
 
 /// The logarithm of the odds of that likelihood.
-[[nodiscard]] float log_odds_of(const Evidence& evidence, bool in_company);
+[[nodiscard]] float log_odds_of(const Evidence& evidence, float company);
 
 /// How much a pose that explains the same surface as another takes from the other's score, which is divided by one more
 /// than the sum of these: `lead` is how far the other's log odds are above those of this one. Of poses that look alike
 /// none is sure enough to be reported.
 [[nodiscard]] float rival_weight(float lead);
 
-/// An instance with this score or more, taken alone, is company for others of its part.
-inline constexpr float sure_score = 0.5F;
+/// How likely one at least of `others` is right, of those of the same part but `instance` itself, each judged alone.
+[[nodiscard]] float company_of(const Instance& instance, std::span<const Instance> others);
 
 /// A figure held against its threshold.
 struct TestOutcome {

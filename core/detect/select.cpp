@@ -76,13 +76,6 @@ struct Selection {
   }
 };
 
-/// Whether another instance of the same part was accepted that is sure by itself.
-bool in_company(const Instance& instance, const FixedVector<Instance>& accepted) {
-  return std::any_of(accepted.begin(), accepted.end(), [&](const Instance& other) {
-    return &other != &instance && other.bank == instance.bank && score_of(other.evidence, false) >= sure_score;
-  });
-}
-
 /// The accepted instance, from 1, that claims the most of the model's surface; 0 for nobody. Found by majority vote
 /// (Boyer and Moore 1981).
 std::uint16_t main_claimant(const SceneMap& map, const RenderedModel& model, std::span<const std::uint16_t> claimed) {
@@ -129,7 +122,7 @@ void note_rival(const Selection& selection, const Instance& rival, const Rendere
   };
   const float unexplained = std::max(0.0F, 1.0F - explained(rival) / explained(claimant));
   Standing& standing = workspace.standings[holder - 1U];
-  standing.rivals += rival_weight(standing.own - log_odds_of(rival.evidence, false) + worth_of_all * unexplained);
+  standing.rivals += rival_weight(standing.own - log_odds_of(rival.evidence, 0.0F) + worth_of_all * unexplained);
 }
 
 enum class Outcome : std::uint8_t { accepted, refused, no_room };
@@ -151,9 +144,9 @@ Outcome consider(const Selection& selection, Instance& instance, SelectWorkspace
     note_rival(selection, instance, model, workspace, accepted);
     return Outcome::refused;
   }
-  const float alone = log_odds_of(instance.evidence, false);
+  const float alone = log_odds_of(instance.evidence, 0.0F);
   instance.evidence = own;
-  instance.score = score_of(own, in_company(instance, accepted));
+  instance.score = score_of(own, company_of(instance, accepted.span()));
   if (parameters.tests) instance.rejection = failed_test(own, parameters, bank.part->thresholds);
   if (instance.rejection == Rejection::none && instance.score < selection.threshold(instance))
     instance.rejection = Rejection::score;
@@ -173,7 +166,7 @@ void settle_rivalries(const Selection& selection, std::span<const Standing> stan
                       FixedVector<Instance>& rejected) {
   for (std::size_t k = 0; k < accepted.size(); ++k) {
     Instance& instance = accepted[k];
-    instance.score = score_of(instance.evidence, in_company(instance, accepted));
+    instance.score = score_of(instance.evidence, company_of(instance, accepted.span()));
     instance.score /= 1.0F + standings[k].rivals;
     if (instance.score < selection.threshold(instance)) instance.rejection = Rejection::ambiguous;
   }
@@ -227,7 +220,7 @@ std::uint32_t select_instances(const SceneMap& map, std::span<const Bank> banks,
     for (const std::uint32_t j : order) {
       if (execution.late()) break;
       Instance& instance = judged[j];
-      instance.score = score_of(instance.evidence, in_company(instance, accepted));
+      instance.score = score_of(instance.evidence, company_of(instance, accepted.span()));
       // The first round takes what holds by itself; later ones ask again, since neighbours that were taken
       // account for surfaces that spoke against a hypothesis.
       if (round == 0 && instance.rejection == Rejection::none && instance.score < selection.threshold(instance))

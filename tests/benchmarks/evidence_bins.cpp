@@ -134,7 +134,7 @@ EvidenceBin evidence_bin(BinKind kind, std::span<const TrialPart> parts, std::si
   recipe.instances = 14;
   recipe.strain = strains[seed % strains.size()];
   recipe.seed = chance.word();
-  const float along_part = is_smeared(kind) ? chance.between(45.0F, 110.0F) : chance.between(70.0F, 160.0F);
+  const float along_part = chance.between(45.0F, is_smeared(kind) ? 110.0F : 160.0F);
   recipe.pixel_pitch = parts[wanted].evaluation.diameter / along_part;
   recipe.maximum_width = 800;
   recipe.maximum_height = 600;

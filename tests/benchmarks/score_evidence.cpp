@@ -49,11 +49,11 @@ bool is_judged_by_score(const Instance& instance) {
          instance.rejection != Rejection::intersecting;
 }
 
-void print_row(BinKind kind, std::uint64_t seed, const Bank& bank, const Instance& instance, int hit, bool in_company) {
+void print_row(BinKind kind, std::uint64_t seed, const Bank& bank, const Instance& instance, int hit, float company) {
   const Evidence& e = instance.evidence;
-  std::printf("%s,%llu,%s,%d,%s,%.4f,%d", bin_kind_name(kind), static_cast<unsigned long long>(seed),
+  std::printf("%s,%llu,%s,%d,%s,%.4f,%.4f", bin_kind_name(kind), static_cast<unsigned long long>(seed),
               bank.part->name.data(), hit, rejection_name(instance.rejection), static_cast<double>(instance.score),
-              in_company ? 1 : 0);
+              static_cast<double>(company));
   for (const float figure : {e.overlap, e.visible, e.purity, e.measured, e.inside, e.boundary, e.edge, e.decided,
                              e.outline, e.lock, e.blur, e.gap, e.below, e.residual, e.misfit, e.confirmed})
     std::printf(",%.5g", static_cast<double>(figure));
@@ -77,12 +77,8 @@ void print_evidence(BinKind kind, std::uint64_t seed, const Bank& bank, const Ev
     });
     if (is_taken) continue;
     taken.push_back(place);
-    const bool in_company =
-        std::any_of(detections.instances.begin(), detections.instances.end(), [&](const Instance& other) {
-          return (other.camera_from_part.translation - instance.camera_from_part.translation).norm() > 0.0F &&
-                 score_of(other.evidence, false) >= sure_score;
-        });
-    print_row(kind, seed, bank, instance, hit_instance(instance, scene, part), in_company);
+    print_row(kind, seed, bank, instance, hit_instance(instance, scene, part),
+              company_of(instance, detections.instances));
   }
 }
 
