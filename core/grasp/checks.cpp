@@ -60,6 +60,24 @@ bool retreat_collides(const Attempt& attempt) {
                              attempt.tool.contact_margin);
 }
 
+/// Whether the frame shows all places where jaws or lip will be: what stands beyond its edges nobody has seen.
+bool frame_shows_grip(const Attempt& attempt, const Gripper& gripper) {
+  const Camera& camera = attempt.around.cloud->frame.camera;
+  const auto shown = [&](const Vector3& place) {
+    if (place.z() <= 0.0F) return false;
+    const Eigen::Vector2f pixel = camera.project(place);
+    return pixel.x() >= 0.0F && pixel.y() >= 0.0F && pixel.x() <= static_cast<float>(camera.width - 1) &&
+           pixel.y() <= static_cast<float>(camera.height - 1);
+  };
+  for (const GripperPiece& piece : gripper.all()) {
+    if (!piece.touches_part) continue;
+    for (const std::size_t front : {4U, 5U, 6U, 7U}) {
+      if (!shown(attempt.camera_from_tool * piece.box.corner(front))) return false;
+    }
+  }
+  return true;
+}
+
 /// Of all banks: a part of any of them may hide. Above `most` it is a lower bound.
 float hidden_share(const Attempt& attempt, const Gripper& gripper, float most) {
   float share = 0.0F;
@@ -70,10 +88,11 @@ float hidden_share(const Attempt& attempt, const Gripper& gripper, float most) {
   return share;
 }
 
-/// What parts that nobody has recognised leave of a way in: those that were measured in part, and those that may hide.
-/// With more than `useful` of them hidden the grasp is beaten.
+/// What parts that nobody has recognised leave of a way in: those that were measured in part, and those that may hide
+/// or lie beyond the edges of the frame. With more than `useful` of them hidden the grasp is beaten.
 GraspRejection test_unrecognised(const Attempt& attempt, const Gripper& gripper, const Sweep& sweep, float useful,
                                  GraspCheck& check) {
+  if (!frame_shows_grip(attempt, gripper)) return GraspRejection::unseen;
   const CollisionParameters& collision = attempt.parameters.collision;
   const float most = std::min(collision.maximum_hidden, hidden_part_share_at(useful, collision));
   const float share = hidden_share(attempt, gripper, most);

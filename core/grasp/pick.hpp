@@ -23,7 +23,7 @@ enum class GraspRejection : std::uint8_t {
   tool,       ///< The cell has no tool of the kind, or of the number, that the grasp needs.
   avoided,    ///< A pick at this place failed not long ago.
   wall,       ///< On its way in the gripper would touch the bin.
-  unseen,     ///< A part that the sensor could not see may well be in the way.
+  unseen,     ///< A part that the sensor could not see may well be in the way, or the frame ends there.
   neighbour,  ///< On its way in the gripper would touch another instance, where the sensor did not see it.
   closing,    ///< Closing, the jaws would catch something that is not the part.
   retreat,    ///< On the way out the gripper would touch something, or the held part the bin.

@@ -95,6 +95,18 @@ TEST_F(PlannerChecks, StaysOutOfWhatWasNotMeasuredBesideThePart) {
   EXPECT_EQ(reason_of(choose()), GraspRejection::none) << "no part fits into the gap";
 }
 
+TEST_F(PlannerChecks, GripsNothingBeyondTheEdgesOfTheFrame) {
+  part.grasps.resize(1);
+  const Camera& camera = scene.camera;
+  const float edge = camera.point(static_cast<float>(camera.width - 1), 0.0F, 0.570F).x();
+  add_block(edge - 0.040F, 0.0F, 0.585F);
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none);
+  scene.boxes.clear();
+  instances.clear();
+  add_block(edge - 0.020F, 0.0F, 0.585F);
+  EXPECT_EQ(reason_of(choose()), GraspRejection::unseen) << "one jaw goes where nobody has looked";
+}
+
 TEST_F(PlannerChecks, KeepsFurtherFromWhatIsNeitherAPartNorTheBin) {
   part.grasps.resize(1);
   add_block(0.0F, 0.0F, 0.585F);
