@@ -39,7 +39,8 @@ NeighbourGrid build_neighbour_grid(std::span<const OrientedPoint> points, float 
 
   const auto index_of = [&](const OrientedPoint& point) {
     const Eigen::Vector3i cell = grid.cell_of(point.position);
-    return static_cast<std::size_t>((cell.z() * grid.size.y() + cell.y()) * grid.size.x() + cell.x());
+    const int number = (cell.z() * grid.size.y() + cell.y()) * grid.size.x() + cell.x();
+    return static_cast<std::size_t>(number);
   };
   std::fill(grid.starts.begin(), grid.starts.end(), 0U);
   for (const OrientedPoint& point : points) ++grid.starts[index_of(point)];

@@ -171,7 +171,8 @@ void measure_walls(std::span<const WallPoint> points, const Outline& outline, Bi
     const float length = 2.0F * outline.half[1 - wall.axis];
     const float along = outline.own(point.place)[1 - wall.axis] / length + 0.5F;
     if (!(along >= 0.0F && along < 1.0F)) continue;
-    seen[static_cast<std::size_t>(2 * wall.axis + wall.side)][static_cast<std::size_t>(along * pieces)] = true;
+    const int number = 2 * wall.axis + wall.side;
+    seen[static_cast<std::size_t>(number)][static_cast<std::size_t>(along * pieces)] = true;
     if (point.is_rim()) continue;
     squares += static_cast<double>(wall.distance * wall.distance);
     ++count;

@@ -16,7 +16,7 @@ constexpr double longest_norm_error = 0.01;
 [[nodiscard]] RequestBox read_box(std::span<const std::uint16_t> words, NumberKind kind, const BlockFormat& format) {
   RequestBox box;
   for (int i = 0; i < 3; ++i) {
-    const auto at = static_cast<std::size_t>(2 * i);
+    const std::size_t at = 2 * static_cast<std::size_t>(i);
     box.reference_from_box.translation[i] = static_cast<float>(get_length(words.subspan(at), kind, format));
     box.half_size[i] = static_cast<float>(get_length(words.subspan(6 + at), kind, format) / 2);
   }
