@@ -25,6 +25,9 @@ struct MeasuredCells {
   Lanes background{};
   LaneVectors normal;
   LaneMask foreground{};
+
+  /// As MapCell has it.
+  [[nodiscard]] LaneMask has_normal() const { return normal.z != 0.0F; }
 };
 
 /// Those that lie on the cells from (u, v) of the model's rectangle on; beyond it nothing is measured.
@@ -123,7 +126,7 @@ struct Verdicts {
   verdicts.distance = magnitude(gap) * slope;
   const LaneMask together = in_reach & (verdicts.distance <= tolerance);
   const LaneMask agrees =
-      ~normals.known | (measured.normal.z == 0.0F) | (dot(normals.direction, measured.normal) > same_normal);
+      ~normals.known | ~measured.has_normal() | (dot(normals.direction, measured.normal) > same_normal);
   verdicts.behind &= ~together;
   verdicts.occluded &= ~together;
   verdicts.confirmed = together & agrees & (measured.foreground != 0);

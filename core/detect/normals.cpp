@@ -77,7 +77,7 @@ PlaneFits fit_planes(const Neighbourhood& near, const PlaneFits& guess, const La
       Lanes dy = Neighbourhood::lanes_of(near.y[row], column) - origin_y;
       Lanes dz = z - origin_z;
       const Lanes off = dz - (guess.a * dx + guess.b * dy + guess.c);
-      const LaneMask counts = (z > 0.0F) & ((off < 0.0F ? -off : off) <= gate);
+      const LaneMask counts = (z > 0.0F) & (magnitude(off) <= gate);
       dx = counts ? dx : Lanes{};
       dy = counts ? dy : Lanes{};
       dz = counts ? dz : Lanes{};

@@ -150,7 +150,7 @@ LaneVectors bin_blocks(const DepthFrame& frame, const SceneMap& layout, int mu, 
   const Camera& camera = frame.camera;
   const WholeBlocks blocks = read_blocks(frame, layout.stride, mu, mv);
   const LaneMask full = blocks.count >= layout.enough_pixels();
-  const LaneMask steep = full & (blocks.high - blocks.low > 4.0F * (blocks.low / layout.camera.fx));
+  const LaneMask steep = full & (blocks.high - blocks.low > layout.surface_step(blocks.low));
   const Lanes scale = full ? 1.0F / __builtin_convertvector(blocks.count, Lanes) : Lanes{};
   const Lanes z = blocks.z * scale;
   LaneVectors points{(blocks.u * scale - camera.cx) / camera.fx * z, (blocks.v * scale - camera.cy) / camera.fy * z, z};
@@ -180,7 +180,7 @@ void for_each_block(const DepthFrame& frame, const SceneMap& layout, const Execu
 /// Which of the four cells from (u, v) on were measured and have neighbours on the same surface.
 LaneMask supported(const SceneMap& layout, std::span<const float> depths, int u, int v) {
   const Lanes z = pixels_at(layout.camera, depths, u, v);
-  const Lanes step = 4.0F * (z / layout.camera.fx);
+  const Lanes step = layout.surface_step(z);
   LaneMask support{};
   for (int dv = -1; dv <= 1; ++dv) {
     for (int du = -1; du <= 1; ++du) {

@@ -42,11 +42,17 @@ struct SceneMap {
   }
   /// How many pixels of a block must have been measured.
   [[nodiscard]] int enough_pixels() const { return std::max(1, stride * stride / 3); }
-  /// Edge of a cell on a surface at depth `z` that faces the sensor (metres).
-  [[nodiscard]] float footprint(float z) const { return z / camera.fx; }
+  /// Edge of a cell on a surface at depth `z`, or at each of four, that faces the sensor (metres).
+  template <class Depth>
+  [[nodiscard]] Depth footprint(const Depth& z) const {
+    return z / camera.fx;
+  }
   /// The largest step in depth (metres) between neighbouring cells that still is one surface, seen at up
   /// to 76 degrees from its normal.
-  [[nodiscard]] float surface_step(float z) const { return 4.0F * footprint(z); }
+  template <class Depth>
+  [[nodiscard]] Depth surface_step(const Depth& z) const {
+    return 4.0F * footprint(z);
+  }
 };
 
 /// Lays out a map over `storage` for frames of `camera`, `stride` pixels a cell.

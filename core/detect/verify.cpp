@@ -196,6 +196,7 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
       const LaneMask covered = cells.here > 0.0F;
       if (!any(covered)) continue;
       const MeasuredCells measured = measured_cells(map, model, u, v);
+      const LaneMask has_normal = measured.has_normal();
       const LaneMask bounded = covered & (measured.background > 0.0F);
       const Lanes limit = measured.background + tolerance;
       rendered_cells.add(covered);
@@ -229,7 +230,7 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
           gap += in_broad_gap(map, model, u + static_cast<int>(i), v, bank.part->detail, tolerance) ? 1.0F : 0.0F;
         if (verdicts.confirmed[i] == 0) continue;
         squares += verdicts.distance[i] * verdicts.distance[i];
-        if (measured.normal.z[i] == 0.0F) continue;
+        if (has_normal[i] == 0) continue;
         normals += measured.normal[i] * measured.normal[i].transpose();
         normal_count += 1.0F;
       }

@@ -5,7 +5,7 @@
 
 #include "core/bank/bank.hpp"
 #include "core/detect/scene_map.hpp"
-#include "core/geometry/lanes.hpp"
+#include "core/geometry/lane_vectors.hpp"
 
 namespace graspd {
 
@@ -41,18 +41,15 @@ struct LookedUpPoints {
 
   /// As `pose * position` and SceneMap::look_up() do it, to the last bit.
   void look_up(const SceneMap& map, const RigidTransform& pose) {
-    const Matrix3& r = pose.rotation;
     const Vector3& t = pose.translation;
     const Camera& camera = map.camera;
     const auto width = static_cast<float>(camera.width);
     const auto height = static_cast<float>(camera.height);
     for (std::size_t i = 0; i < (count + lane_count - 1) / lane_count; ++i) {
-      const Lanes px = x[i];
-      const Lanes py = y[i];
-      const Lanes pz = z[i];
-      x[i] = (r(0, 0) * px + (r(0, 1) * py + r(0, 2) * pz)) + t.x();
-      y[i] = (r(1, 0) * px + (r(1, 1) * py + r(1, 2) * pz)) + t.y();
-      z[i] = (r(2, 0) * px + (r(2, 1) * py + r(2, 2) * pz)) + t.z();
+      const LaneVectors turned = pose.rotation * LaneVectors{x[i], y[i], z[i]};
+      x[i] = turned.x + t.x();
+      y[i] = turned.y + t.y();
+      z[i] = turned.z + t.z();
       const Lanes u = x[i] / z[i] * camera.fx + camera.cx + 0.5F;
       const Lanes v = y[i] / z[i] * camera.fy + camera.cy + 0.5F;
       const LaneMask inside = (z[i] > 0.0F) & (u >= 0.0F) & (u < width) & (v >= 0.0F) & (v < height);
