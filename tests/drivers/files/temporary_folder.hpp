@@ -13,6 +13,7 @@ namespace graspd {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
+    // mkdtemp() puts a name that nobody has in place of the six letters.
     std::string pattern = (std::filesystem::temp_directory_path() / "graspd-test-XXXXXX").string();
     path_ = ::mkdtemp(pattern.data());
   }
