@@ -77,7 +77,7 @@ struct EdgePoint {
 /// Which surface points can be seen from each of many directions, as one row of bits a direction:
 /// self-occlusion at the price of a look-up.
 struct VisibilityTable {
-  std::span<const Vector3> directions;  ///< From the part towards the sensor, unit length.
+  std::span<const Vector3> directions;  ///< From the part towards the sensor, unit length; z never rises.
   std::span<const std::uint64_t> bits;  ///< directions.size() rows of words_per_row words.
   std::uint32_t words_per_row = 0;
 

@@ -141,6 +141,10 @@ const char* surface_fault(const Bank& bank) {
   if (!std::all_of(table.directions.begin(), table.directions.end(), is_unit)) {
     return "a direction of the visibility table is not of unit length";
   }
+  if (!std::is_sorted(table.directions.begin(), table.directions.end(),
+                      [](const Vector3& a, const Vector3& b) { return a.z() > b.z(); })) {
+    return "the directions of the visibility table are out of order";
+  }
   const std::size_t used = bank.surface.size() % 64;
   if (used != 0) {
     for (std::size_t last = table.words_per_row - 1U; last < table.bits.size(); last += table.words_per_row) {

@@ -3,6 +3,7 @@
 #include "core/bank/bank.hpp"
 #include "core/bank/bank_check.hpp"
 #include "core/bank/bank_format.hpp"
+#include "core/geometry/closed_surface.hpp"
 
 namespace graspd {
 
@@ -114,6 +115,7 @@ Result<Bank> read_bank(std::span<const std::byte> bytes, std::string_view name) 
     return Status::format(StatusCode::bad_bank, "%.*s: damaged: %s; compile the bank again",
                           static_cast<int>(name.size()), name.data(), fault);
   }
+  bank.mesh.closed = is_closed_outward(bank.mesh);
   return bank;
 }
 

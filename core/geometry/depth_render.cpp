@@ -74,14 +74,13 @@ struct DepthImages {
   }
 };
 
+/// `area`: of the parallelogram, with its sign.
 template <bool with_nearest, bool with_farthest>
-void fill_triangle(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c, const Camera& camera,
+void fill_triangle(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c, double area, const Camera& camera,
                    const DepthImages& images) {
   const auto [top, bottom] = pixel_range(std::min({a.v, b.v, c.v}), std::max({a.v, b.v, c.v}), camera.height);
   const auto [first, last] = pixel_range(std::min({a.u, b.u, c.u}), std::max({a.u, b.u, c.u}), camera.width);
   if (top > bottom || first > last) return;
-  const double area = (b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v);
-  if (!(std::abs(area) > 1e-12)) return;
   const double step_u = ((b.inverse_z - a.inverse_z) * (c.v - a.v) - (c.inverse_z - a.inverse_z) * (b.v - a.v)) / area;
   const double step_v = ((c.inverse_z - a.inverse_z) * (b.u - a.u) - (b.inverse_z - a.inverse_z) * (c.u - a.u)) / area;
   // Slivers have steep gradients: rounding must not carry a pixel beyond the triangle's own depths.
@@ -120,9 +119,24 @@ void fill_triangle(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint
   }
 }
 
+template <bool with_nearest, bool with_farthest>
+void draw_triangle(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c, bool closed, const Camera& camera,
+                   const DepthImages& images) {
+  const double area = (b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v);
+  if (!(std::abs(area) > 1e-12)) return;
+  if (!closed) {
+    fill_triangle<with_nearest, with_farthest>(a, b, c, area, camera, images);
+  } else if (area < 0.0) {
+    // Rows run downwards, so what is counter-clockwise to the eye has a negative area.
+    if constexpr (with_nearest) fill_triangle<true, false>(a, b, c, area, camera, images);
+  } else {
+    if constexpr (with_farthest) fill_triangle<false, true>(a, b, c, area, camera, images);
+  }
+}
+
 /// Draws the part of a triangle that lies beyond the near plane: three or four corners of it.
 template <bool with_nearest, bool with_farthest>
-void draw_clipped(const std::array<Vector3, 3>& corners, const Camera& camera, const DepthImages& images) {
+void draw_clipped(const std::array<Vector3, 3>& corners, bool closed, const Camera& camera, const DepthImages& images) {
   std::array<ScreenPoint, 4> kept;
   std::size_t count = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -137,7 +151,7 @@ void draw_clipped(const std::array<Vector3, 3>& corners, const Camera& camera, c
     }
   }
   for (std::size_t i = 2; i < count; ++i)
-    fill_triangle<with_nearest, with_farthest>(kept[0], kept[i - 1], kept[i], camera, images);
+    draw_triangle<with_nearest, with_farthest>(kept[0], kept[i - 1], kept[i], closed, camera, images);
 }
 
 /// The vertices that were met last, in the camera's frame and on the image: most belong to several triangles.
@@ -188,9 +202,9 @@ void draw(const MeshView& mesh, const RigidTransform& camera_from_part, const Ca
     const VertexCache::Vertex b = vertices[t[1]];
     const VertexCache::Vertex& c = vertices[t[2]];
     if (a.in_front && b.in_front && c.in_front) {
-      fill_triangle<with_nearest, with_farthest>(a.screen, b.screen, c.screen, camera, images);
+      draw_triangle<with_nearest, with_farthest>(a.screen, b.screen, c.screen, mesh.closed, camera, images);
     } else if (a.finite && b.finite && c.finite) {
-      draw_clipped<with_nearest, with_farthest>({a.position, b.position, c.position}, camera, images);
+      draw_clipped<with_nearest, with_farthest>({a.position, b.position, c.position}, mesh.closed, camera, images);
     }
   }
 }

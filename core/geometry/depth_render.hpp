@@ -41,7 +41,8 @@ enum class RenderedSurface { nearest, farthest };
 
 /// Draws the posed mesh into a depth image: metres along z at each pixel's ray, the chosen surface
 /// wins over others and over what `depth` holds already (none negative), 0 means nothing there. Both sides of a
-/// triangle are drawn. `depth` holds camera.pixel_count() values, row by row. Never allocates.
+/// triangle are drawn, but of a closed mesh only the side that the surface can be on: half the work, and where the near
+/// plane cuts it open nothing shows inside. `depth` holds camera.pixel_count() values, row by row. Never allocates.
 /// Triangles with indices out of range or coordinates that are not finite are left out.
 void draw_depth(const MeshView& mesh, const RigidTransform& camera_from_part, const Camera& camera,
                 std::span<float> depth, RenderedSurface surface = RenderedSurface::nearest);

@@ -15,6 +15,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 struct MeshView {
   std::span<const Vector3> vertices;    ///< Metres, part frame.
   std::span<const Triangle> triangles;  ///< Counter-clockwise seen from outside.
+  bool closed = false;                  ///< As is_closed_outward() tells; false is always right.
 };
 
 /// A triangle mesh with its own storage, for offline work.

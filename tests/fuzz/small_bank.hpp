@@ -37,7 +37,7 @@ inline std::vector<std::byte> small_bank_file() {
     const float side = i < 35 ? 1.0F : -1.0F;
     surface.push_back({Vector3(x, 0.0F, 0.01F * side), Vector3(0.0F, 0.0F, side)});
   }
-  const std::vector<Vector3> directions{Vector3::UnitZ(), -Vector3::UnitZ(), Vector3::UnitX()};
+  const std::vector<Vector3> directions{Vector3::UnitZ(), Vector3::UnitX(), -Vector3::UnitZ()};
   std::vector<std::uint64_t> bits(directions.size() * visibility_words(surface.size()), 0x1FU);
 
   BankView view;

@@ -24,8 +24,8 @@ struct SmallBank {
   std::array<std::uint32_t, 3> reference_views{0, 0, 1};
   std::array<SurfacePoint, 70> surface;
   std::array<EdgePoint, 2> edges;
-  std::array<Vector3, 2> directions{Vector3::UnitX(), Vector3::UnitZ()};
-  std::array<std::uint64_t, 4> bits{1, 2, 3, 4};
+  std::array<Vector3, 2> directions{Vector3::UnitZ(), Vector3::UnitX()};
+  std::array<std::uint64_t, 4> bits{3, 4, 1, 2};
   std::array<Vector3, 4> vertices{Vector3::Zero(), Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
   std::array<Triangle, 4> triangles{Triangle{0, 2, 1}, Triangle{0, 1, 3}, Triangle{0, 3, 2}, Triangle{1, 2, 3}};
   std::array<RigidTransform, 2> symmetries;

@@ -52,6 +52,7 @@ TEST(BankFile, ComesBackAsItWasWritten) {
   EXPECT_EQ(bank.visibility.row(Vector3(0.1F, 0, 5))[0], 3U);
   EXPECT_EQ(bank.visibility.row(Vector3(0.1F, 0, 0.05F))[1], 2U);
   EXPECT_EQ(bank.mesh.triangles[3], (Triangle{1, 2, 3}));
+  EXPECT_TRUE(bank.mesh.closed);
   EXPECT_EQ(bank.symmetry_discrete.size(), 2U);
   EXPECT_EQ(bank.grasps.size(), 1U);
   for (std::size_t s = 0; s < bank_section_count; ++s) {
@@ -200,6 +201,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"surface", [](SmallBank& b) { b.surface[69].normal.x() = not_a_number; }},
                     Fault{"edge point", [](SmallBank& b) { b.edges[1].tangent.setZero(); }},
                     Fault{"direction of the visibility table", [](SmallBank& b) { b.directions[0] *= 2; }},
+                    Fault{"directions of the visibility table are out of order",
+                          [](SmallBank& b) { std::swap(b.directions[0], b.directions[1]); }},
                     Fault{"points that are not there", [](SmallBank& b) { b.bits[3] = std::uint64_t{1} << 6U; }},
                     Fault{"vertex of its mesh", [](SmallBank& b) { b.vertices[2].z() = not_a_number; }},
                     Fault{"vertex that is not there", [](SmallBank& b) { b.triangles[1][2] = 4; }},

@@ -198,6 +198,42 @@ TEST(DepthRender, BothSurfacesAtOnceAreThoseOfTwoRenderings) {
   }
 }
 
+TEST(DepthRender, ClosedMeshesLookAsIfBothSidesWereDrawn) {
+  // A dented ball: rays meet up to six surfaces of it.
+  Mesh mesh = sphere_mesh(40);
+  for (Vector3& vertex : mesh.vertices)
+    vertex *= 0.05F * (1.0F + 0.4F * std::sin(7.0F * vertex.x() + 5.0F * vertex.z()));
+  MeshView closed = mesh.view();
+  closed.closed = true;
+  std::mt19937 random(17);
+  for (int trial = 0; trial < 10; ++trial) {
+    const RigidTransform pose = random_pose(random);
+    std::vector<std::vector<float>> open_images(2, std::vector<float>(camera.pixel_count()));
+    std::vector<std::vector<float>> closed_images = open_images;
+    render_both_surfaces(mesh.view(), pose, camera, open_images[0], open_images[1]);
+    render_both_surfaces(closed, pose, camera, closed_images[0], closed_images[1]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t pixel = 0; pixel < camera.pixel_count(); ++pixel)
+        ASSERT_NEAR(closed_images[i][pixel], open_images[i][pixel], 1e-6F) << i << " trial " << trial;
+    }
+    std::vector<float> alone(camera.pixel_count());
+    render_depth(closed, pose, camera, alone);
+    EXPECT_EQ(alone, closed_images[0]);
+    render_depth(closed, pose, camera, alone, RenderedSurface::farthest);
+    EXPECT_EQ(alone, closed_images[1]);
+  }
+}
+
+TEST(DepthRender, OfAClosedMeshOnlyTheSidesThatFaceTheSensorAreNearest) {
+  Mesh mesh = box_mesh(Vector3(0.1F, 0.1F, 0.1F));
+  for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  MeshView inside_out = mesh.view();
+  inside_out.closed = true;
+  std::vector<float> depth(camera.pixel_count());
+  render_depth(inside_out, {Matrix3::Identity(), Vector3(0, 0, 1)}, camera, depth);
+  EXPECT_FLOAT_EQ(depth[camera.index(78, 62)], 1.1F);
+}
+
 TEST(DepthRender, BadMeshesAreHarmless) {
   Mesh mesh = box_mesh(Vector3(0.1F, 0.1F, 0.1F));
   mesh.vertices.emplace_back(std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F);
