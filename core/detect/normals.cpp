@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "core/geometry/lanes.hpp"
 
@@ -47,11 +46,7 @@ struct Neighbourhood {
       }
     }
   }
-  [[nodiscard]] static Lanes lanes_of(const Row& row, int first) {
-    Lanes lanes;
-    std::memcpy(&lanes, row.data() + first, sizeof lanes);
-    return lanes;
-  }
+  [[nodiscard]] static Lanes lanes_of(const Row& row, int first) { return load_lanes(row.data() + first); }
 };
 
 /// Fits the planes to what is within `gate` of those so far.

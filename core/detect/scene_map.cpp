@@ -177,19 +177,25 @@ void for_each_block(const DepthFrame& frame, const SceneMap& layout, const Execu
   });
 }
 
-/// Which of the four cells from (u, v) on were measured and have neighbours on the same surface.
-LaneMask supported(const SceneMap& layout, std::span<const float> depths, int u, int v) {
-  const Lanes z = pixels_at(layout.camera, depths, u, v);
+/// Which of the four cells from (u, v) on were measured and have neighbours on the same surface. depth_at(du, dv) gives
+/// the depths of the cells beside them.
+template <class DepthAt>
+LaneMask supported(const SceneMap& layout, DepthAt depth_at) {
+  const Lanes z = depth_at(0, 0);
   const Lanes step = layout.surface_step(z);
+  const Lanes slanting_step = step * 1.5F;
   LaneMask support{};
-  for (int dv = -1; dv <= 1; ++dv) {
-    for (int du = -1; du <= 1; ++du) {
-      if (du == 0 && dv == 0) continue;
-      const Lanes other = pixels_at(layout.camera, depths, u + du, v + dv);
-      const Lanes reach = du != 0 && dv != 0 ? step * 1.5F : step;
-      support -= (other > 0.0F) & (magnitude(other - z) < reach);
-    }
+  const auto ask = [&](int du, int dv, const Lanes& reach) {
+    const Lanes other = depth_at(du, dv);
+    support -= (other > 0.0F) & (magnitude(other - z) < reach);
+  };
+  for (const int dv : {-1, 1}) {
+    ask(-1, dv, slanting_step);
+    ask(0, dv, step);
+    ask(1, dv, slanting_step);
   }
+  ask(-1, 0, step);
+  ask(1, 0, step);
   return (z > 0.0F) & (support >= 3);
 }
 
@@ -198,10 +204,15 @@ template <class Store>
 void for_each_supported(const SceneMap& layout, std::span<const float> depths, const Execution& execution,
                         Store store) {
   constexpr auto lanes = static_cast<int>(lane_count);
-  parallel_for(layout.camera.height, execution, 8, [&](int v) {
-    for (int u = 0; u < layout.camera.width; u += lanes) {
-      const LaneMask four = supported(layout, depths, u, v);
-      for (int i = 0; i < std::min(lanes, layout.camera.width - u); ++i)
+  const Camera& camera = layout.camera;
+  parallel_for(camera.height, execution, 8, [&](int v) {
+    for (int u = 0; u < camera.width; u += lanes) {
+      const bool at_border = u == 0 || u + lanes >= camera.width || v == 0 || v + 1 == camera.height;
+      const float* const here = &depths[camera.index(u, v)];
+      const LaneMask four =
+          at_border ? supported(layout, [&](int du, int dv) { return pixels_at(camera, depths, u + du, v + dv); })
+                    : supported(layout, [&](int du, int dv) { return load_lanes(here + dv * camera.width + du); });
+      for (int i = 0; i < std::min(lanes, camera.width - u); ++i)
         store(u + i, v, four[static_cast<std::size_t>(i)] != 0);
     }
   });

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstring>
 #include <span>
 
 #include "core/geometry/camera.hpp"
@@ -13,7 +12,7 @@ namespace graspd {
   constexpr auto lanes = static_cast<int>(lane_count);
   Lanes pixels{};
   if (u >= 0 && u + lanes <= camera.width && v >= 0 && v < camera.height) {
-    std::memcpy(&pixels, &image[camera.index(u, v)], sizeof pixels);
+    pixels = load_lanes(&image[camera.index(u, v)]);
   } else {
     for (int i = 0; i < lanes; ++i) {
       if (camera.contains(u + i, v)) pixels[static_cast<std::size_t>(i)] = image[camera.index(u + i, v)];

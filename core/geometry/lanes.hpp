@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace graspd {
 
@@ -11,7 +12,17 @@ using Lanes = float __attribute__((vector_size(16)));
 using LaneMask = std::int32_t __attribute__((vector_size(16)));
 inline constexpr std::size_t lane_count = 4;
 
-[[nodiscard]] inline Lanes magnitude(const Lanes& a) { return a < 0.0F ? -a : a; }
+/// Four numbers that lie side by side, from `first` on.
+[[nodiscard]] inline Lanes load_lanes(const float* first) {
+  Lanes lanes;
+  std::memcpy(&lanes, first, sizeof lanes);
+  return lanes;
+}
+
+[[nodiscard]] inline Lanes magnitude(const Lanes& a) {
+  constexpr std::int32_t all_but_sign = 0x7FFFFFFF;
+  return reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(a) & all_but_sign);
+}
 
 [[nodiscard]] inline Lanes larger(const Lanes& a, const Lanes& b) { return a < b ? b : a; }
 
