@@ -200,6 +200,8 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     const std::size_t share = workspace.capacity.judged / request.banks.size();
     narrow_down(scene, bank, parameters.refine, std::min(parameters.refine.judged, static_cast<int>(share)), execution,
                 workspace.select.claimed, workspace.clusters);
+    drop_contradicted(scene, bank, parameters.refine, surface_tolerance(scene.map, bank, parameters.verify), execution,
+                      workspace.clusters);
     record(request.trace, b, TracedStage::distinct, workspace.clusters);
     clock.end_of(Stage::refine);
     if (execution.late()) break;

@@ -1,5 +1,9 @@
 #include "core/detect/narrowing.hpp"
 
+#include <algorithm>
+
+#include "core/detect/consistency.hpp"
+#include "core/detect/parallel_for.hpp"
 #include "core/detect/refine.hpp"
 #include "core/detect/spread.hpp"
 #include "core/detect/twin_hypotheses.hpp"
@@ -19,6 +23,18 @@ void narrow_down(const Scene& scene, const Bank& bank, const RefineParameters& p
   keep_best(most, parameters.judged_per_place);
   add_twins(scene.map, scene.edges, bank, parameters, execution, clusters);
   keep_distinct(bank, parameters, execution, clusters);
+}
+
+void drop_contradicted(const Scene& scene, const Bank& bank, const RefineParameters& parameters, float tolerance,
+                       const Execution& execution, FixedVector<PoseCluster>& clusters) {
+  parallel_for(clusters.size(), execution, 4, [&](std::size_t k) {
+    PoseCluster& cluster = clusters[k];
+    cluster.score =
+        scene_consistency(scene.map, bank, cluster.camera_from_part, parameters.fine_points, tolerance).score();
+  });
+  const PoseCluster* const end =
+      std::remove_if(clusters.begin(), clusters.end(), [](const PoseCluster& cluster) { return cluster.score < 0.0F; });
+  clusters.truncate(static_cast<std::size_t>(end - clusters.begin()));
 }
 
 }  // namespace graspd

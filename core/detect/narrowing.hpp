@@ -18,4 +18,9 @@ namespace graspd {
 void narrow_down(const Scene& scene, const Bank& bank, const RefineParameters& parameters, int most,
                  const Execution& execution, std::span<std::uint16_t> counts, FixedVector<PoseCluster>& clusters);
 
+/// Drops poses of which so much stands in free space that more speaks against them than for them: hardly anything that
+/// refinement still does could make them right. `tolerance` (metres) as for verification. The order stays.
+void drop_contradicted(const Scene& scene, const Bank& bank, const RefineParameters& parameters, float tolerance,
+                       const Execution& execution, FixedVector<PoseCluster>& clusters);
+
 }  // namespace graspd

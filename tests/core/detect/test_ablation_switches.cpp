@@ -4,16 +4,27 @@
 #include <array>
 
 #include "tests/core/detect/bracket_scene.hpp"
+#include "tests/core/train/shapes.hpp"
 
 namespace graspd {
 namespace {
 
-/// What is found of six brackets with these parameters.
+/// What is found with these parameters of six brackets, among them boxes that show edges like theirs.
 struct AblatedDetection {
   BracketBank bracket;
   BracketScene scene;
   DetectMemory memory{1};
   Detections detections;
+
+  AblatedDetection() {
+    const auto put = [&](const Mesh& box, float x, float y, float yaw, float roll) {
+      const Matrix3 turned =
+          (Eigen::AngleAxisf(yaw, Vector3::UnitZ()) * Eigen::AngleAxisf(roll, Vector3::UnitX())).toRotationMatrix();
+      draw_depth(box.view(), {turned, Vector3(x, y, BracketScene::floor - 0.02F)}, scene.camera, scene.depth);
+    };
+    put(shapes::box(0.06F, 0.03F, 0.03F), -0.02F, 0.11F, 1.2F, 0.785F);
+    put(shapes::box(0.08F, 0.012F, 0.04F), 0.17F, -0.11F, -0.6F, 0.0F);
+  }
 
   void run(const DetectParameters& parameters) { run(parameters, bracket.bank()); }
 

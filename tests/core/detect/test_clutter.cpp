@@ -55,7 +55,7 @@ TEST(Clutter, HoldsNoBracket) {
   DetectMemory memory(1);
   Detections detections;
   EXPECT_EQ(brackets_found(scene, detections, memory), 0U);
-  EXPECT_GT(detections.rejected.size(), 50U);
+  EXPECT_GT(detections.rejected.size(), 20U);
 }
 
 TEST(Clutter, BracketThatIsThereComesFirst) {
