@@ -10,6 +10,16 @@
 
 namespace graspd {
 
+namespace {
+
+void drop_negative(FixedVector<PoseCluster>& clusters) {
+  const PoseCluster* const end =
+      std::remove_if(clusters.begin(), clusters.end(), [](const PoseCluster& cluster) { return cluster.score < 0.0F; });
+  clusters.truncate(static_cast<std::size_t>(end - clusters.begin()));
+}
+
+}  // namespace
+
 void narrow_down(const Scene& scene, const Bank& bank, const RefineParameters& parameters, int most,
                  const Execution& execution, std::span<std::uint16_t> counts, FixedVector<PoseCluster>& clusters) {
   const auto keep_best = [&](int count, int per_place) {
@@ -17,6 +27,7 @@ void narrow_down(const Scene& scene, const Bank& bank, const RefineParameters& p
     keep_spread(scene.map, bank, {count, per_place, 2 * parameters.coarse_points, 0.6F * bank.part->detail}, execution,
                 counts, clusters);
   };
+  drop_negative(clusters);
   keep_best(parameters.closer, parameters.closer_per_place);
   refine_closely(scene.map, scene.edges, bank, parameters, execution, clusters.span());
   sort_by_score(clusters);
@@ -32,9 +43,7 @@ void drop_contradicted(const Scene& scene, const Bank& bank, const RefineParamet
     cluster.score =
         scene_consistency(scene.map, bank, cluster.camera_from_part, parameters.fine_points, tolerance).score();
   });
-  const PoseCluster* const end =
-      std::remove_if(clusters.begin(), clusters.end(), [](const PoseCluster& cluster) { return cluster.score < 0.0F; });
-  clusters.truncate(static_cast<std::size_t>(end - clusters.begin()));
+  drop_negative(clusters);
 }
 
 }  // namespace graspd
