@@ -105,6 +105,34 @@ struct CellCount {
   [[nodiscard]] float total() const { return static_cast<float>(lanes[0] + lanes[1] + lanes[2] + lanes[3]); }
 };
 
+/// Numbers summed up where some mask holds, apart in each lane.
+struct CellSum {
+  Lanes lanes{};
+
+  void add(const Lanes& numbers, const LaneMask& mask) { lanes += mask ? numbers : Lanes{}; }
+  [[nodiscard]] float total() const { return lanes[0] + lanes[1] + lanes[2] + lanes[3]; }
+};
+
+/// The outer products of normals, summed up.
+struct NormalScatter {
+  CellSum xx, xy, xz, yy, yz, zz;
+
+  void add(const LaneVectors& normal, const LaneMask& mask) {
+    xx.add(normal.x * normal.x, mask);
+    xy.add(normal.x * normal.y, mask);
+    xz.add(normal.x * normal.z, mask);
+    yy.add(normal.y * normal.y, mask);
+    yz.add(normal.y * normal.z, mask);
+    zz.add(normal.z * normal.z, mask);
+  }
+  [[nodiscard]] Matrix3 total() const {
+    Matrix3 scatter;
+    scatter << xx.total(), xy.total(), xz.total(), xy.total(), yy.total(), yz.total(), xz.total(), yz.total(),
+        zz.total();
+    return scatter;
+  }
+};
+
 /// From how far the normals spread in the direction in which they spread least: without any in that direction the
 /// surface could slide along it (Gelfand and Guibas 2004, slippable motions).
 float lock_of(const Matrix3& normal_scatter) {
@@ -183,13 +211,12 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   Evidence evidence;
   const float tolerance = surface_tolerance(map, bank, parameters);
   const bool edges_judge = parameters.edges && bank.part->edges_judge != 0;
-  CellCount rendered_cells, confirmed_cells, behind_cells, occluded_cells, contradicted_cells, halves_below, open_edges;
+  CellCount rendered_cells, confirmed_cells, behind_cells, occluded_cells, contradicted_cells, halves_below, open_edges,
+      normal_cells;
+  CellSum depths, squares;
+  NormalScatter normals;
   OutlineCount outline;
-  float depth_sum = 0;
-  float squares = 0;
   float gap = 0;
-  Matrix3 normals = Matrix3::Zero();
-  float normal_count = 0;
   for (int v = 0; v < model.rectangle.height; ++v) {
     for (int u = 0; u < model.rectangle.width; u += static_cast<int>(lane_count)) {
       const ModelCells cells(model, u, v);
@@ -224,15 +251,15 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
       behind_cells.add(verdicts.behind);
       occluded_cells.add(verdicts.occluded);
       contradicted_cells.add(verdicts.contradicted);
+      depths.add(cells.here, covered);
+      squares.add(verdicts.distance * verdicts.distance, verdicts.confirmed);
+      normals.add(measured.normal, verdicts.confirmed & has_normal);
+      normal_cells.add(verdicts.confirmed & has_normal);
+      if (!any(verdicts.behind)) continue;
       for (std::size_t i = 0; i < lane_count; ++i) {
-        depth_sum += cells.here[i];
-        if (verdicts.behind[i] != 0)
-          gap += in_broad_gap(map, model, u + static_cast<int>(i), v, bank.part->detail, tolerance) ? 1.0F : 0.0F;
-        if (verdicts.confirmed[i] == 0) continue;
-        squares += verdicts.distance[i] * verdicts.distance[i];
-        if (has_normal[i] == 0) continue;
-        normals += measured.normal[i] * measured.normal[i].transpose();
-        normal_count += 1.0F;
+        if (verdicts.behind[i] != 0 &&
+            in_broad_gap(map, model, u + static_cast<int>(i), v, bank.part->detail, tolerance))
+          gap += 1.0F;
       }
     }
   }
@@ -250,15 +277,16 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   evidence.purity = confirmed + against > 0.0F ? confirmed / (confirmed + against) : 0.0F;
   evidence.boundary = behind / rendered;
   evidence.below = 0.5F * halves_below.total() / rendered;
-  const float residual = confirmed > 0.0F ? std::sqrt(squares / confirmed) : 0.0F;
+  const float residual = confirmed > 0.0F ? std::sqrt(squares.total() / confirmed) : 0.0F;
   evidence.residual = residual / bank.part->sampling;
   evidence.misfit = residual / tolerance;
-  const float unit_cells = evidence_unit * bank.part->diameter / map.footprint(depth_sum / rendered);
+  const float unit_cells = evidence_unit * bank.part->diameter / map.footprint(depths.total() / rendered);
   evidence.confirmed = confirmed / (unit_cells * unit_cells);
   evidence.gap = gap / (unit_cells * unit_cells);
   evidence.blur = blur_of(map, bank.part->detail);
   evidence.outline = open_edges.total() / unit_cells;
-  evidence.lock = normal_count > 0.0F ? lock_of(normals / normal_count) : 0.0F;
+  const float normal_count = normal_cells.total();
+  evidence.lock = normal_count > 0.0F ? lock_of(normals.total() / normal_count) : 0.0F;
   if (edges_judge) {
     const int decided = outline.consistent + outline.inconsistent;
     evidence.decided = static_cast<float>(decided) / unit_cells;
