@@ -9,58 +9,6 @@ namespace graspd {
 
 namespace {
 
-/// Bridges the gaps of a row with the nearer of the depths at their ends: in the shadow of a wall anything down to its
-/// rim may be wall. Only a row in which nothing was measured stays empty.
-void bridge_row(std::span<float> row) {
-  std::size_t begin = 0;  // Of the gap in hand.
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    const float depth = row[i];
-    if (depth <= 0.0F) continue;
-    const float nearest = begin == 0 ? depth : std::min(row[begin - 1], depth);
-    for (; begin < i; ++begin) row[begin] = nearest;
-    begin = i + 1;
-  }
-  for (std::size_t i = begin; begin > 0 && i < row.size(); ++i) row[i] = row[begin - 1];
-}
-
-/// Bridges empty rows likewise, once all others are full.
-void bridge_empty_rows(const Camera& camera, std::span<float> depths) {
-  const auto row = [&](int v) { return &depths[camera.index(0, v)]; };
-  int begin = 0;
-  for (int v = 0; v <= camera.height; ++v) {
-    const bool end = v == camera.height;
-    if (!end && *row(v) <= 0.0F) continue;
-    for (; begin < v; ++begin) {
-      for (int u = 0; u < camera.width; ++u) {
-        const float above = begin > 0 ? row(begin - 1)[u] : 0.0F;
-        const float below = end ? above : row(v)[u];
-        row(begin)[u] = begin > 0 ? std::min(above, below) : below;
-      }
-    }
-    begin = v + 1;
-  }
-}
-
-/// Marks what does not stand out from the nearest background around each cell of row `v`: at a wall the depth of the
-/// background is not sharp.
-void judge_row(std::span<const float> empty_depths, int v, float margin, SceneMap& map) {
-  const float* const here = &empty_depths[map.camera.index(0, v)];
-  const float* const above = v > 0 ? here - map.camera.width : here;
-  const float* const below = v + 1 < map.camera.height ? here + map.camera.width : here;
-  const auto nearest_in_column = [&](int u) { return std::min(std::min(above[u], here[u]), below[u]); };
-  float before = nearest_in_column(0);
-  float at = before;
-  for (int u = 0; u < map.camera.width; ++u) {
-    const float after = u + 1 < map.camera.width ? nearest_in_column(u + 1) : at;
-    const float background = std::min(std::min(before, at), after);
-    before = at;
-    at = after;
-    MapCell& cell = map.at(u, v);
-    const bool stands_out = background <= 0.0F || cell.point.z() < background - margin;
-    if (!stands_out) cell.foreground = 0;
-  }
-}
-
 /// A linear congruential sequence: the planes that are tried must not depend on the run.
 struct Sequence {
   std::uint32_t state = 12345;
@@ -123,18 +71,18 @@ SupportPlane polished(const SupportPlane& plane, std::span<const Vector3> sample
 
 }  // namespace
 
-void remove_background_by_frame(std::span<float> empty_depths, float margin, const Execution& execution,
-                                SceneMap& map) {
-  const auto width = static_cast<std::size_t>(map.camera.width);
+void remove_background_by_frame(const EmptyBin& empty, float margin, const Execution& execution, SceneMap& map) {
   parallel_for(map.camera.height, execution, 8, [&](int v) {
-    const std::span<float> empty = empty_depths.subspan(map.camera.index(0, v), width);
-    MapCell* const cells = &map.at(0, v);
-    for (std::size_t u = 0; u < width; ++u) cells[u].background = empty[u];
-    bridge_row(empty);
+    for (int u = 0; u < map.camera.width; ++u) {
+      const std::size_t index = map.camera.index(u, v);
+      MapCell& cell = map.cells[index];
+      cell.background = empty.depths[index];
+      // At a wall the depth of the background is not sharp.
+      const float nearest = empty.nearest[index];
+      const bool stands_out = nearest <= 0.0F || cell.point.z() < nearest - margin;
+      if (!stands_out) cell.foreground = 0;
+    }
   });
-  if (execution.late()) return;
-  bridge_empty_rows(map.camera, empty_depths);
-  parallel_for(map.camera.height, execution, 8, [&](int v) { judge_row(empty_depths, v, margin, map); });
 }
 
 SupportPlane remove_background_by_plane(float margin, float slack, const Execution& execution, SceneMap& map) {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <span>
-
+#include "core/detect/empty_bin.hpp"
 #include "core/detect/execution.hpp"
 #include "core/detect/parameters.hpp"
 #include "core/detect/scene_map.hpp"
@@ -19,10 +18,9 @@ struct SupportPlane {
   [[nodiscard]] float height(const Vector3& point) const { return normal.dot(point) - offset; }
 };
 
-/// Marks as background what does not stand out from the empty bin, and writes the depth of the background into the
-/// cells of `map` where the empty bin was measured. Where it was not, what stands out is told by bridging the gap, in
-/// place: `empty_depths` are those of the empty bin (metres) at the cells of the map, 0: not measured.
-void remove_background_by_frame(std::span<float> empty_depths, float margin, const Execution& execution, SceneMap& map);
+/// Marks as background what does not stand out from the nearest of the empty bin around it, and writes the depth of the
+/// background into the cells of `map` where the empty bin was measured.
+void remove_background_by_frame(const EmptyBin& empty, float margin, const Execution& execution, SceneMap& map);
 
 /// Finds the dominant plane behind which next to nothing is measured, and marks what does not stand
 /// out from it as background. Finds none when no such plane holds a fair share of the scene: then all

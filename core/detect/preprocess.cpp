@@ -43,7 +43,7 @@ PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacit
   const std::size_t cells = capacity.map_cells;
   workspace.map_cells = arena.take<MapCell>(cells, "scene map");
   workspace.depths = arena.take<float>(cells, "scene map");
-  workspace.empty_depths = arena.take<float>(cells, "scene map");
+  workspace.empty_bin = carve_empty_bin(arena, cells);
   workspace.segments.parent = arena.take<std::uint32_t>(cells, "segmentation");
   workspace.segments.size = arena.take<std::uint32_t>(cells, "segmentation");
   workspace.edges.nearest = arena.take<std::uint32_t>(cells, "edges");
@@ -66,10 +66,9 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float det
 
   const bool by_frame = parameters.background == BackgroundMode::automatic && !empty_bin.depth.empty();
   if (by_frame) {
-    const SceneMap layout = make_scene_map(empty_bin.camera, stride, {});
-    bin_depths(empty_bin, execution, layout, workspace.depths, workspace.empty_depths);
+    keep_empty_bin(empty_bin, stride, execution, workspace.depths, workspace.empty_bin);
     if (execution.late()) return scene;
-    remove_background_by_frame(workspace.empty_depths, parameters.background_margin, execution, scene.map);
+    remove_background_by_frame(workspace.empty_bin, parameters.background_margin, execution, scene.map);
   } else if (parameters.background == BackgroundMode::automatic || parameters.background == BackgroundMode::plane) {
     scene.plane =
         remove_background_by_plane(parameters.background_margin, parameters.plane_slack * detail, execution, scene.map);

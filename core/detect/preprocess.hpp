@@ -24,8 +24,8 @@ struct Scene {
 
 struct PreprocessWorkspace {
   std::span<MapCell> map_cells;
-  std::span<float> depths;        ///< Of a map that is being binned.
-  std::span<float> empty_depths;  ///< Of the empty bin.
+  std::span<float> depths;  ///< Of a map that is being binned.
+  EmptyBin empty_bin;
   SegmentWorkspace segments;
   DepthEdges edges;
   SamplingWorkspace sampling;

@@ -16,6 +16,7 @@ struct Camera {
   float cx = 0;
   float cy = 0;
 
+  [[nodiscard]] bool operator==(const Camera&) const = default;
   [[nodiscard]] std::size_t pixel_count() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }

@@ -65,9 +65,12 @@ TEST(BackgroundByFrame, IsBridgedAndJudgedByTheNearestAround) {
     }
     RandomMap scene(23, 17, 6, 0.9);
     const std::vector<bool> expected = expected_foreground(empty.map, scene.map);
-    std::vector<float> empty_depths;
-    for (const MapCell& cell : empty.cells) empty_depths.push_back(cell.point.z());
-    remove_background_by_frame(empty_depths, margin, {2}, scene.map);
+    std::vector<float> depths;
+    for (const MapCell& cell : empty.cells) depths.push_back(cell.point.z());
+    std::vector<float> bridged = depths;
+    std::vector<float> nearest(depths.size());
+    find_nearest_background(empty.map.camera, {2}, bridged, nearest);
+    remove_background_by_frame({{}, depths, nearest}, margin, {2}, scene.map);
     for (std::size_t i = 0; i < expected.size(); ++i) {
       EXPECT_EQ(scene.cells[i].foreground != 0, expected[i]) << "cell " << i << ", measured " << measured;
       EXPECT_EQ(scene.cells[i].background, empty.cells[i].point.z());
