@@ -64,8 +64,8 @@ struct Answer {
 /// when the instance passed verification in the frame of this very capture.
 [[nodiscard]] Answer answer_request(PickCycle& cycle, const PlcRequest& request, PlcLink& plc);
 
-/// Runs one detection and choice on a rendered frame, so that whatever libraries set up at first use
-/// (the threads of OpenMP, above all) is there before the first trigger. Call it on the worker's thread.
+/// Runs one detection and choice on a rendered frame, so that whatever is set up at first use (the threads of OpenMP,
+/// above all, and what is kept of the empty bin) is there before the first trigger. Call it on the worker's thread.
 [[nodiscard]] Status warm_up(PickCycle& cycle);
 
 }  // namespace graspd

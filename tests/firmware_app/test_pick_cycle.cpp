@@ -181,5 +181,29 @@ TEST(PickCycle, WarmUpLeavesNothingToPick) {
   EXPECT_EQ(fixture.ask(RequestKind::next).block.code, ResultCode::nothing_left);
 }
 
+TEST(PickCycle, WarmUpMakesWhatIsKeptOfTheEmptyBin) {
+  PickCycleFixture fixture(angle_bar_scene());
+  EXPECT_TRUE(warm_up(fixture.cycle).ok());
+  const EmptyBin& kept = fixture.cycle.memory.detect.preprocess.empty_bin;
+  const EmptyBinOrigin made_of = kept.origin.front();
+  EXPECT_EQ(made_of.frame, digest_of(fixture.source.empty_bin()));
+  // Were it made anew for the first capture, this would be gone.
+  kept.depths[100] = 0.6F;
+  EXPECT_EQ(fixture.ask().block.code, ResultCode::ok);
+  EXPECT_EQ(kept.origin.front(), made_of);
+  EXPECT_EQ(kept.depths[100], 0.6F);
+}
+
+TEST(PickCycle, WarmsUpWhateverTheEmptyBinIs) {
+  PickCycleFixture fixture(angle_bar_scene());
+  std::vector<float>& empty = fixture.source.scene.empty;
+  const std::size_t pixels = empty.size();
+  for (const std::vector<float>& other : {std::vector<float>(), std::vector<float>(100, 0.5F),
+                                          std::vector<float>(pixels, 0.0F), std::vector<float>(pixels, 0.01F)}) {
+    empty = other;
+    EXPECT_TRUE(warm_up(fixture.cycle).ok());
+  }
+}
+
 }  // namespace
 }  // namespace graspd
