@@ -5,7 +5,8 @@
 
 namespace graspd {
 
-/// Four vectors. What is computed with them is what Vector3 gives, to the last bit.
+/// Four vectors. What is computed with them is what Vector3 gives; to the last bit where Eigen adds up in the same
+/// order, as on x86-64.
 struct LaneVectors {
   Lanes x{};
   Lanes y{};

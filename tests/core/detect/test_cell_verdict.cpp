@@ -18,6 +18,10 @@ struct Expected {
   float distance = 0;
 };
 
+/// In the order of LaneVectors; which order Eigen takes depends on the processor.
+float dot_of(const Vector3& a, const Vector3& b) { return a.x() * b.x() + (a.y() * b.y() + a.z() * b.z()); }
+float length_of(const Vector3& a) { return std::sqrt(dot_of(a, a)); }
+
 /// What the scene says at one cell, by the description and one number at a time.
 Expected expected_at(const SceneMap& map, const RenderedModel& model, int u, int v) {
   Expected expected;
@@ -37,17 +41,18 @@ Expected expected_at(const SceneMap& map, const RenderedModel& model, int u, int
   const Vector3 across = point_or_middle(u + 1, v) - point_or_middle(u - 1, v);
   const Vector3 down = point_or_middle(u, v + 1) - point_or_middle(u, v - 1);
   const Vector3 scaled = down.cross(across);
-  const bool known = (fits(u + 1, v) || fits(u - 1, v)) && (fits(u, v + 1) || fits(u, v - 1)) && scaled.norm() > 0.0F;
-  const Vector3 normal = known ? Vector3(scaled / scaled.norm()) : Vector3(Vector3::Zero());
+  const bool known =
+      (fits(u + 1, v) || fits(u - 1, v)) && (fits(u, v + 1) || fits(u, v - 1)) && length_of(scaled) > 0.0F;
+  const Vector3 normal = known ? Vector3(scaled / length_of(scaled)) : Vector3(Vector3::Zero());
   const Vector3 ray = model.camera.point(static_cast<float>(u), static_cast<float>(v), 1.0F);
   const float gap = cell.point.z() - here;
-  const float slope = known ? std::max(0.25F, std::abs(normal.dot(ray)) / ray.norm()) : 1.0F;
+  const float slope = known ? std::max(0.25F, std::abs(dot_of(normal, ray)) / length_of(ray)) : 1.0F;
   expected.distance = std::abs(gap) * slope;
   if (std::abs(gap) * 0.25F > tolerance || expected.distance > tolerance) {
     (gap > 0.0F ? expected.behind : expected.occluded) = true;
     return expected;
   }
-  const bool agrees = !known || !cell.has_normal() || normal.dot(cell.normal) > 0.6F;
+  const bool agrees = !known || !cell.has_normal() || dot_of(normal, cell.normal) > 0.6F;
   (agrees && cell.foreground != 0 ? expected.confirmed : expected.contradicted) = true;
   return expected;
 }
