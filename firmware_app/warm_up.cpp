@@ -25,23 +25,18 @@ DepthFrame part_before_plane(const Bank& bank, const FrameLimits& limits, std::s
   return frame;
 }
 
-float bottom_of(const DepthFrame& empty_bin) {
-  return *std::max_element(empty_bin.depth.begin(), empty_bin.depth.end());
-}
-
-/// Whether captures can look like the empty bin, and a part has room above its bottom.
-bool suits(const DepthFrame& empty_bin, const Bank& bank, const FrameLimits& limits) {
+/// Whether captures can look like the empty bin.
+bool suits(const DepthFrame& empty_bin, const FrameLimits& limits) {
   const Camera& camera = empty_bin.camera;
   return !empty_bin.depth.empty() && camera.width == limits.maximum_width && camera.height == limits.maximum_height &&
-         camera.fx > 0.0F && camera.fy > 0.0F && empty_bin.depth.size() == camera.pixel_count() &&
-         bottom_of(empty_bin) > bank.part->diameter;
+         camera.fx > 0.0F && camera.fy > 0.0F && empty_bin.depth.size() == camera.pixel_count();
 }
 
 /// A part that lies on the bottom of the empty bin.
-DepthFrame part_in_bin(const Bank& bank, const DepthFrame& empty_bin, std::span<float> storage) {
+DepthFrame part_in_bin(const Bank& bank, const DepthFrame& empty_bin, float bottom, std::span<float> storage) {
   const DepthFrame frame{empty_bin.camera, storage.first(empty_bin.depth.size()), 0, 0};
   std::copy(empty_bin.depth.begin(), empty_bin.depth.end(), frame.depth.begin());
-  const Vector3 centre(0, 0, bottom_of(empty_bin) - bank.part->diameter / 2);
+  const Vector3 centre(0, 0, bottom - bank.part->diameter / 2);
   draw_depth(bank.mesh, {Matrix3::Identity(), centre - bank.part->centre}, frame.camera, frame.depth);
   return frame;
 }
@@ -53,9 +48,11 @@ Status warm_up(PickCycle& cycle) {
   const Bank& bank = cycle.banks.front();
   const FrameLimits limits = cycle.source->limits();
   const DepthFrame empty_bin = cycle.source->empty_bin();
-  const bool in_bin = suits(empty_bin, bank, limits);
-  const DepthFrame frame =
-      in_bin ? part_in_bin(bank, empty_bin, cycle.memory.frame) : part_before_plane(bank, limits, cycle.memory.frame);
+  const float bottom =
+      suits(empty_bin, limits) ? *std::max_element(empty_bin.depth.begin(), empty_bin.depth.end()) : 0.0F;
+  const bool in_bin = bottom > bank.part->diameter;
+  const DepthFrame frame = in_bin ? part_in_bin(bank, empty_bin, bottom, cycle.memory.frame)
+                                  : part_before_plane(bank, limits, cycle.memory.frame);
 
   DetectRequest request;
   request.banks = cycle.banks.first(1);

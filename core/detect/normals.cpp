@@ -46,15 +46,14 @@ struct Neighbourhood {
       }
     }
   }
-  [[nodiscard]] static Lanes lanes_of(const Row& row, int first) { return load_lanes(row.data() + first); }
 };
 
 /// Fits the planes to what is within `gate` of those so far.
 PlaneFits fit_planes(const Neighbourhood& near, const PlaneFits& guess, const Lanes& gate) {
   const auto middle = static_cast<std::size_t>(near.radius);
-  const Lanes origin_x = Neighbourhood::lanes_of(near.x[middle], near.radius);
-  const Lanes origin_y = Neighbourhood::lanes_of(near.y[middle], near.radius);
-  const Lanes origin_z = Neighbourhood::lanes_of(near.z[middle], near.radius);
+  const Lanes origin_x = load_lanes(near.x[middle].data() + near.radius);
+  const Lanes origin_y = load_lanes(near.y[middle].data() + near.radius);
+  const Lanes origin_z = load_lanes(near.z[middle].data() + near.radius);
   Lanes sx{};
   Lanes sy{};
   Lanes sz{};
@@ -67,9 +66,9 @@ PlaneFits fit_planes(const Neighbourhood& near, const PlaneFits& guess, const La
   LaneMask n{};
   for (std::size_t row = 0; row <= 2 * middle; ++row) {
     for (int column = 0; column <= 2 * near.radius; ++column) {
-      const Lanes z = Neighbourhood::lanes_of(near.z[row], column);
-      Lanes dx = Neighbourhood::lanes_of(near.x[row], column) - origin_x;
-      Lanes dy = Neighbourhood::lanes_of(near.y[row], column) - origin_y;
+      const Lanes z = load_lanes(near.z[row].data() + column);
+      Lanes dx = load_lanes(near.x[row].data() + column) - origin_x;
+      Lanes dy = load_lanes(near.y[row].data() + column) - origin_y;
       Lanes dz = z - origin_z;
       const Lanes off = dz - (guess.a * dx + guess.b * dy + guess.c);
       const LaneMask counts = (z > 0.0F) & (magnitude(off) <= gate);

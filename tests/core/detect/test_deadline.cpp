@@ -1,18 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <vector>
 
 #include "core/detect/select.hpp"
 #include "tests/core/detect/bracket_scene.hpp"
+#include "tests/core/detect/counting_clock.hpp"
 
 namespace graspd {
 namespace {
-
-/// A clock that advances by one each time that it is read.
-std::atomic<std::int64_t> readings{0};
-std::int64_t read_clock() { return ++readings; }
 
 class Deadline : public testing::Test {
  protected:

@@ -6,14 +6,11 @@
 #include <vector>
 
 #include "core/detect/empty_bin.hpp"
+#include "tests/core/detect/counting_clock.hpp"
 #include "tests/core/memory/carved.hpp"
 
 namespace graspd {
 namespace {
-
-/// A clock that advances by one each time that it is read.
-std::int64_t readings = 0;
-std::int64_t read_clock() { return ++readings; }
 
 class KeptEmptyBin : public testing::Test {
  protected:

@@ -49,6 +49,7 @@ TEST(AtomicFile, DeviceIsWrittenToAndNotReplaced) {
 }
 
 TEST(AtomicFile, FullDiskIsReported) {
+  // Without this device there is no full disk to be had without the rights to make one.
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "the system has no /dev/full";
   const Status status = write_file("/dev/full", std::string_view("x"));
   EXPECT_EQ(status.code(), StatusCode::cannot_write);

@@ -50,6 +50,7 @@ class DescriptorLimit {
 
 TEST(ModbusConnections, RefusesDescriptorsThatASetCannotHold) {
   const DescriptorLimit limit(FD_SETSIZE + 100);
+  // Descriptors beyond a set's cannot be had where the hard limit is lower, which only root may raise.
   if (!limit.is_set) GTEST_SKIP() << "this machine allows too few descriptors";
   const auto server = start_server();
   std::vector<int> filling;
