@@ -1,7 +1,6 @@
 #include "core/evaluate/image_evaluation.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -14,7 +13,7 @@ namespace {
 constexpr float largest_surface_error = 0.5F;      // Of the diameter.
 constexpr float largest_projection_error = 50.0F;  // Pixels of an image 640 wide.
 
-/// Whether two spheres of `radius` around the origins of the poses may touch in the image.
+/// Whether two spheres of `radius` around `a` and `b` may touch in the image.
 bool may_overlap_in_image(const Vector3& a, const Vector3& b, float radius) {
   if (a.z() == 0.0F || b.z() == 0.0F) return false;
   const float distance = (a / a.z() - b / b.z()).norm();
@@ -26,16 +25,14 @@ PoseError pose_error(const RigidTransform& estimate, const DistanceImage& estima
                      const Camera& camera) {
   PoseError error;
   error.visible_surface.fill(1.0F);
-  if (may_overlap_in_image(estimate.translation, truth.translation, 0.5F * part.diameter)) {
+  // Around its middle, a sphere as wide as the part holds it, wherever its own origin is.
+  if (may_overlap_in_image(estimate * part.middle, truth * part.middle, part.diameter)) {
     error.visible_surface =
         visible_surface_discrepancy(estimate_image, truth_image, measured, bop19_visibility_delta, part.diameter);
   }
-  error.surface = std::numeric_limits<float>::infinity();
-  if ((estimate.translation - truth.translation).norm() < part.diameter) {
-    error.surface = maximum_surface_distance(estimate, truth, part.vertices, part.symmetries,
-                                             largest_surface_error * part.diameter) /
-                    part.diameter;
-  }
+  error.surface =
+      maximum_surface_distance(estimate, truth, part.vertices, part.symmetries, largest_surface_error * part.diameter) /
+      part.diameter;
   const float pixels_per_unit = static_cast<float>(camera.width) / 640.0F;
   error.projection = maximum_projection_distance(estimate, truth, camera, part.vertices, part.symmetries,
                                                  largest_projection_error * pixels_per_unit) /

@@ -101,5 +101,23 @@ TEST_F(ImageErrorsOfBoxes, KnowTheSymmetryOfThePart) {
   EXPECT_NEAR(errors().parts[0].error(0, 1).projection, 0.0F, 1e-2F);
 }
 
+// CAD may put a part's origin anywhere, so that its turns move the origin further than the part is long.
+TEST_F(ImageErrorsOfBoxes, DoNotDependOnWhereThePartsOriginIs) {
+  const RigidTransform part_from_middle = at(0.2F, 0, 0);
+  Mesh aside = box({0.02F, 0.015F, 0.01F});
+  for (Vector3& vertex : aside.vertices) vertex = part_from_middle * vertex;
+  const RigidTransform half_turn = {Vector3(-1, -1, 1).asDiagonal(), Vector3(0.4F, 0, 0)};
+  const std::array<RigidTransform, 2> same{RigidTransform{}, half_turn};
+  const RigidTransform middle_from_part = inverse(part_from_middle);
+  part_ = evaluation_part(3, aside, part_.diameter, {same, false, {}});
+  for (TruePose& truth : image_.truths) truth.camera_from_part = truth.camera_from_part * middle_from_part;
+  image_.estimates = {{3, 0.5F, image_.truths[1].camera_from_part * half_turn}};
+
+  const PoseError error = errors().parts[0].error(0, 1);
+  EXPECT_EQ(error.visible_surface[0], 0.0F);
+  EXPECT_NEAR(error.surface, 0.0F, 1e-5F);
+  EXPECT_NEAR(error.projection, 0.0F, 1e-2F);
+}
+
 }  // namespace
 }  // namespace graspd
