@@ -1,77 +1,23 @@
 #include "core/detect/refine.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/detect/consistency.hpp"
 #include "core/detect/contour.hpp"
+#include "core/detect/normal_equations.hpp"
 #include "core/detect/visible_surface.hpp"
-#include "core/geometry/lanes.hpp"
 
 namespace graspd {
 
 namespace {
 
-using Matrix6 = Eigen::Matrix<float, 6, 6>;
-using Vector6 = Eigen::Matrix<float, 6, 1>;
-
 constexpr float compatible_normal = 0.5F;
 constexpr int fewest_pairs = 10;
 constexpr float edge_weight = 0.5F;
+constexpr float damping = 0.01F;
 constexpr std::size_t most_contour_points = 256;
-
-/// The normal equations of one iteration; turns are about the part's centre, in units of its radius, so
-/// that turns and shifts weigh alike.
-class NormalEquations {
- public:
-  int pairs = 0;
-
-  /// Adds one correspondence: the point should move by `distance` along `direction`.
-  void add(const Vector3& arm, const Vector3& direction, float distance, float weight) {
-    const Vector3 turn = arm.cross(direction);
-    const Lanes upper{turn.x(), turn.y(), turn.z(), direction.x()};
-    const Lanes lower{direction.y(), direction.z(), 0.0F, 0.0F};
-    const Lanes weighted_upper = weight * upper;
-    const Lanes weighted_lower = weight * lower;
-    for (std::size_t j = 0; j < 4; ++j) {
-      upper_[j] += weighted_upper * upper[j];
-      lower_[j] += weighted_lower * upper[j];
-    }
-    for (std::size_t j = 0; j < 2; ++j) lower_[4 + j] += weighted_lower * lower[j];
-    upper_gradient_ += weight * distance * upper;
-    lower_gradient_ += weight * distance * lower;
-  }
-  /// Symmetric; only the lower triangle is filled.
-  [[nodiscard]] Matrix6 hessian() const {
-    Matrix6 matrix = Matrix6::Zero();
-    for (int j = 0; j < 6; ++j) {
-      for (int i = j; i < 6; ++i) {
-        const auto column = static_cast<std::size_t>(j);
-        matrix(i, j) = i < 4 ? upper_[column][i] : lower_[column][i - 4];
-      }
-    }
-    return matrix;
-  }
-  [[nodiscard]] Vector6 gradient() const {
-    Vector6 vector;
-    for (int i = 0; i < 6; ++i) vector[i] = i < 4 ? upper_gradient_[i] : lower_gradient_[i - 4];
-    return vector;
-  }
-
- private:
-  // Column by column the first four rows, and the last two with two that stay zero.
-  std::array<Lanes, 4> upper_{};
-  std::array<Lanes, 6> lower_{};
-  Lanes upper_gradient_{};
-  Lanes lower_gradient_{};
-};
-
-float tukey(float squared, float gate) {
-  const float share = std::max(0.0F, 1.0F - squared / (gate * gate));
-  return share * share;
-}
 
 void accumulate_surface(const SceneMap& map, const Bank& bank, const RigidTransform& pose, int points, float gate,
                         NormalEquations& equations) {
@@ -131,15 +77,6 @@ void accumulate_edges(const SceneMap& map, const DepthEdges& edges, const Bank& 
   }
 }
 
-RigidTransform step_from(const Vector6& solution, const Vector3& centre, float radius) {
-  const Vector3 turn = solution.head<3>() / radius;
-  const float angle = turn.norm();
-  RigidTransform step;
-  if (angle > 1e-9F) step.rotation = Eigen::AngleAxisf(angle, turn / angle).toRotationMatrix();
-  step.translation = centre - step.rotation * centre + solution.tail<3>();
-  return step;
-}
-
 }  // namespace
 
 RigidTransform refine_pose(const SceneMap& map, const DepthEdges& edges, const Bank& bank,
@@ -155,10 +92,7 @@ RigidTransform refine_pose(const SceneMap& map, const DepthEdges& edges, const B
     accumulate_surface(map, bank, pose, schedule.points, gate, equations);
     if (equations.pairs < fewest_pairs) break;
     accumulate_edges(map, edges, bank, contour, pose, schedule.points, std::max(gate, schedule.edge_gate), equations);
-    Matrix6 damped = equations.hessian();
-    damped.diagonal().array() += 0.01F * damped.trace() / 6.0F;
-    const Vector6 solution = damped.ldlt().solve(equations.gradient());
-    pose = step_from(solution, pose * bank.part->centre, radius) * pose;
+    pose = equations.moved(pose, bank.part->centre, radius, damping);
   }
   pose.rotation = orthonormalised(pose.rotation);
   return pose;
