@@ -75,6 +75,7 @@ struct ColumnRays {
 struct RenderedNormals {
   LaneVectors direction;  ///< Of unit length.
   LaneMask known;         ///< Not at the rim of the surface.
+  LaneMask inner;         ///< No neighbour lies beyond a rim or a step in depth.
 };
 
 /// The normals of the rendered surface, from its neighbours.
@@ -95,7 +96,8 @@ struct RenderedNormals {
                            select(above_fits, point(row.here, Lanes{} + column.before, cells.above), middle);
   const LaneVectors normal = cross(down, across);
   const Lanes length = square_root(dot(normal, normal));
-  return {normal / length, (left_fits | right_fits) & (above_fits | below_fits) & (length > 0.0F)};
+  return {normal / length, (left_fits | right_fits) & (above_fits | below_fits) & (length > 0.0F),
+          left_fits & right_fits & above_fits & below_fits};
 }
 
 /// What the scene says at four cells of the rendered model, a mask for each; none: nothing was measured there.

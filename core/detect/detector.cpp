@@ -83,16 +83,17 @@ Instance judge(const Scene& scene, const Bank& bank, std::uint32_t bank_index, c
 constexpr std::uint32_t nobody = 0xFFFFFFFFU;
 
 /// How long the selection among poses that were judged will take, which took `judging_ns`: it renders and judges those
-/// anew that passed the tests, some of them several times, in one thread.
-std::int64_t expected_selection_ns(std::span<const Instance> judged, std::int64_t judging_ns, int threads) {
+/// anew that passed the tests, some of them several times, in one thread, and compares twins closely in all of them.
+std::int64_t expected_selection_ns(std::span<const Instance> judged, std::span<const Bank> banks,
+                                   std::int64_t judging_ns, int threads) {
   std::int64_t all = 0;
-  std::int64_t asked = 0;
+  std::int64_t halves = 0;
   for (const Instance& instance : judged) {
     if (instance.bank == nobody) continue;
     ++all;
-    asked += instance.rejection == Rejection::none ? 1 : 0;
+    if (instance.rejection == Rejection::none) halves += 3 * threads + (banks[instance.bank].twins.empty() ? 0 : 6);
   }
-  return all == 0 ? 0 : 3 * asked * threads * judging_ns / (2 * all);
+  return all == 0 ? 0 : halves * judging_ns / (2 * all);
 }
 
 /// Refines the clusters to the end and judges them, those that agree best with the scene first, as long as there is
@@ -112,7 +113,7 @@ void judge_clusters(const Scene& scene, const DetectRequest& request, std::uint3
     const std::size_t some = std::min(at_a_time, count - begin);
     if (execution.deadline_ns != 0) {
       execution.deadline_ns =
-          request.deadline_ns - expected_selection_ns(workspace.judged.span(),
+          request.deadline_ns - expected_selection_ns(workspace.judged.span(), request.banks,
                                                       detections.stage_ns[static_cast<std::size_t>(Stage::verify)],
                                                       execution.threads);
     }
@@ -188,7 +189,7 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     if (execution.late()) break;
     keep_spread(scene.map, bank,
                 {parameters.cluster.plausible, parameters.cluster.plausible_per_place, 100, bank.part->sampling},
-                execution, workspace.select.claimed, workspace.clusters);
+                execution, workspace.select.claims.cells, workspace.clusters);
     record(request.trace, b, TracedStage::plausible, workspace.clusters);
     clock.end_of(Stage::cluster);
     if (execution.late()) break;
@@ -199,7 +200,7 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     // Each part gets its share of the memory, whatever came before it.
     const std::size_t share = workspace.capacity.judged / request.banks.size();
     narrow_down(scene, bank, parameters.refine, std::min(parameters.refine.judged, static_cast<int>(share)), execution,
-                workspace.select.claimed, workspace.clusters);
+                workspace.select.claims.cells, workspace.clusters);
     drop_contradicted(scene, bank, parameters.refine, surface_tolerance(scene.map, bank, parameters.verify), execution,
                       workspace.clusters);
     record(request.trace, b, TracedStage::distinct, workspace.clusters);
@@ -213,9 +214,9 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
   constexpr std::int64_t overdraft_ns = 2'000'000;
   Execution selection = execution;
   if (selection.deadline_ns != 0) selection.deadline_ns += overdraft_ns;
-  detections.flags |=
-      select_instances(scene.map, request.banks, parameters.verify, request.minimum_score, selection,
-                       workspace.judged.span(), workspace.select, workspace.accepted, workspace.rejected);
+  detections.flags |= select_instances(scene.map, request.banks, parameters.verify, request.minimum_score, selection,
+                                       workspace.rendering, workspace.judged.span(), workspace.select,
+                                       workspace.accepted, workspace.rejected);
   if (execution.late()) detections.flags |= flag_deadline;
   clock.end_of(Stage::verify);
   for (const Instance& instance : workspace.rejected)

@@ -62,7 +62,7 @@ struct RefineParameters {
   int closer = 600;               ///< Poses that are refined closely, for one part
   int closer_per_place = 6;       ///< and for one place of the scene.
   int close_iterations = 6;       ///< With fine_points, surfaces alone.
-  int twins = 2;                  ///< Twins of a pose that are tried as well.
+  int twins = 3;                  ///< Twins of a pose that are tried as well.
   int judged = 200;               ///< Poses that are refined to the end and verified, for one part
   int judged_per_place = 2;       ///< and for one place of the scene; their twins come in addition.
 };

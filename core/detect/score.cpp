@@ -60,11 +60,6 @@ float company_of(const Instance& instance, std::span<const Instance> others) {
   return 1.0F - all_wrong;
 }
 
-float rival_weight(float lead) {
-  // Fitted to the poses reported in simulated bins of parts with twins; higher than right, as the score is lower.
-  return std::exp(1.2F - 8.0F * lead);
-}
-
 std::array<TestOutcome, evidence_test_count> test_outcomes(const Evidence& evidence, const VerifyParameters& parameters,
                                                            const VerifyThresholds& thresholds) {
   return {{{Rejection::weak, evidence.measured, parameters.minimum_measured, true},

@@ -17,11 +17,6 @@ namespace graspd {
 /// The logarithm of the odds of that likelihood.
 [[nodiscard]] float log_odds_of(const Evidence& evidence, float company);
 
-/// How much a pose that explains the same surface as another takes from the other's score, which is divided by one more
-/// than the sum of these: `lead` is how far the other's log odds are above those of this one. Of poses that look alike
-/// none is sure enough to be reported.
-[[nodiscard]] float rival_weight(float lead);
-
 /// How likely one at least of `others` is right, of those of the same part but `instance` itself, each judged alone.
 [[nodiscard]] float company_of(const Instance& instance, std::span<const Instance> others);
 

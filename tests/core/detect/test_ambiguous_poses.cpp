@@ -23,6 +23,19 @@ PartDescription box_part(const std::vector<RigidTransform>& symmetry) {
   return part;
 }
 
+/// The box with a step of 12 x 10 mm near a corner of its upper side, which is lower than what surfaces may be off by.
+PartDescription marked_box_part() {
+  constexpr float step = 0.0007F;
+  PartDescription part = box_part({});
+  Mesh mark = shapes::box(0.012F, 0.010F, 2.0F * step);
+  const auto first = static_cast<std::uint32_t>(part.mesh.vertices.size());
+  for (const Vector3& vertex : mark.vertices)
+    part.mesh.vertices.push_back(vertex + Vector3(0.02F, 0.01F, -0.5F * height));
+  for (const Triangle& triangle : mark.triangles)
+    part.mesh.triangles.push_back({triangle[0] + first, triangle[1] + first, triangle[2] + first});
+  return part;
+}
+
 std::vector<RigidTransform> half_turns() {
   std::vector<RigidTransform> turns;
   for (const Vector3& axis : {Vector3(Vector3::UnitX()), Vector3(Vector3::UnitY()), Vector3(Vector3::UnitZ())})
@@ -41,17 +54,20 @@ class Boxes {
     bank_ = read_bank(file_, "box").value();
     for (const float yaw : {0.3F, 1.4F}) {
       const Matrix3 turn = Eigen::AngleAxisf(yaw, Vector3::UnitZ()).toRotationMatrix();
-      draw_depth(part.mesh.view(), {turn, Vector3(0.1F * (yaw - 0.8F), 0.01F, floor - 0.5F * height)}, camera_, depth_);
+      poses.push_back({turn, Vector3(0.1F * (yaw - 0.8F), 0.01F, floor - 0.5F * height)});
+      draw_depth(part.mesh.view(), poses.back(), camera_, depth_);
     }
     DetectRequest request;
     request.banks = std::span(&bank_, 1);
     request.minimum_score = 0.6F;
     EXPECT_TRUE(detect({camera_, depth_, 0, 0}, request, {}, memory_.workspace, detections).ok());
   }
+  [[nodiscard]] const Bank& bank() const { return bank_; }
   [[nodiscard]] std::uint32_t rejected(Rejection reason) const {
     return detections.rejections[static_cast<std::size_t>(reason)];
   }
 
+  std::vector<RigidTransform> poses;
   Detections detections;
 
  private:
@@ -73,6 +89,18 @@ TEST(AmbiguousPoses, ABoxWithItsSymmetryIs) {
   const Boxes boxes(box_part(half_turns()));
   EXPECT_EQ(boxes.detections.instances.size(), 2U);
   EXPECT_EQ(boxes.rejected(Rejection::ambiguous), 0U);
+}
+
+TEST(AmbiguousPoses, ABoxWithAMarkTooLowForTheToleranceIsTurnedRightly) {
+  const Boxes boxes(marked_box_part());
+  ASSERT_GT(VerifyParameters{}.tolerance * boxes.bank().part->detail, 0.0008F);
+  ASSERT_EQ(boxes.detections.instances.size(), 2U);
+  for (const Instance& instance : boxes.detections.instances) {
+    EXPECT_TRUE(std::any_of(boxes.poses.begin(), boxes.poses.end(), [&](const RigidTransform& truth) {
+      return (instance.camera_from_part.translation - truth.translation).norm() < 0.001F &&
+             rotation_angle(truth.rotation.transpose() * instance.camera_from_part.rotation) < 0.05F;
+    }));
+  }
 }
 
 }  // namespace

@@ -93,8 +93,8 @@ TEST_F(Deadline, EndsTheSelectionToo) {
     for (Instance& candidate : candidates) candidate.rejection = Rejection::none;
     workspace.accepted.clear();
     workspace.rejected.clear();
-    (void)select_instances(scene.map, request_.banks, {}, -1.0F, {1, read_clock, deadline}, candidates,
-                           workspace.select, workspace.accepted, workspace.rejected);
+    (void)select_instances(scene.map, request_.banks, {}, -1.0F, {1, read_clock, deadline}, workspace.rendering,
+                           candidates, workspace.select, workspace.accepted, workspace.rejected);
     return workspace.accepted.size();
   };
   EXPECT_EQ(select_until(0), found);

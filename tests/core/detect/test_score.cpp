@@ -129,12 +129,6 @@ TEST(Score, DoubtfulCompanyHelpsLittle) {
   EXPECT_LT(log_odds_of(evidence, 0.5F) - alone, 0.1F * (log_odds_of(evidence, 1.0F) - alone));
 }
 
-TEST(Score, OfTwoPosesThatExplainTheSameNeitherIsSure) {
-  const VerifyThresholds thresholds;
-  EXPECT_LT(1.0F / (1.0F + rival_weight(0.0F)), thresholds.minimum_score);
-  EXPECT_GT(1.0F / (1.0F + rival_weight(1.0F)), 0.95F);
-}
-
 TEST(EvidenceTests, FirstFailureIsNamed) {
   const VerifyParameters parameters;
   const VerifyThresholds thresholds;

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/detect/claimed_scene.hpp"
+#include "core/detect/preprocess.hpp"
+#include "tests/core/detect/bracket_scene.hpp"
+
+namespace graspd {
+namespace {
+
+class Claiming : public testing::Test {
+ protected:
+  BracketBank maker_;
+  BracketScene bin_;
+  DetectMemory memory_{1};
+  Scene scene_;
+  ClaimedScene claims_;
+
+  void SetUp() override {
+    scene_ = preprocess(bin_.frame(), {}, maker_.bank().part->detail, {}, {}, memory_.workspace.preprocess);
+    claims_ = memory_.workspace.select.claims;
+    std::fill(claims_.cells.begin(), claims_.cells.end(), std::uint16_t{0});
+    claims_.rooms.clear();
+  }
+  /// Accepts the bracket at `pose` as the next instance.
+  RenderedModel accept(const RigidTransform& pose) {
+    const std::size_t room = free_room(claims_);
+    const RenderedModel model = render(pose);
+    claim(scene_.map, model, 0.001F, claims_.rooms.size(), claims_);
+    claims_.rooms.push_back({model.rectangle, room});
+    return model;
+  }
+  [[nodiscard]] RenderedModel render(const RigidTransform& pose) const {
+    return render_into(claims_, free_room(claims_), scene_.map, maker_.bank(), pose);
+  }
+  [[nodiscard]] std::ptrdiff_t claimed_by(std::size_t k) const {
+    return std::count(claims_.cells.begin(), claims_.cells.end(), static_cast<std::uint16_t>(k + 1));
+  }
+};
+
+TEST_F(Claiming, WhoExplainsASurfaceHoldsIt) {
+  for (const RigidTransform& pose : bin_.poses) accept(pose);
+  for (std::size_t k = 0; k < bin_.poses.size(); ++k) {
+    EXPECT_GT(claimed_by(k), 100);
+    EXPECT_EQ(main_claimant(scene_.map, render(bin_.poses[k]), claims_), k);
+  }
+}
+
+TEST_F(Claiming, WhatIsReleasedIsNobodys) {
+  accept(bin_.poses[0]);
+  const RenderedModel second = accept(bin_.poses[1]);
+  const std::ptrdiff_t first = claimed_by(0);
+  release(scene_.map, second, 1, claims_);
+  EXPECT_EQ(claimed_by(1), 0);
+  EXPECT_EQ(claimed_by(0), first);
+  EXPECT_EQ(main_claimant(scene_.map, second, claims_), nobodys);
+}
+
+TEST_F(Claiming, ARoomKeepsItsModel) {
+  const RenderedModel first = accept(bin_.poses[0]);
+  const std::vector<float> front(first.front.begin(), first.front.end());
+  accept(bin_.poses[1]);
+  const RenderedModel kept = model_in(scene_.map, claims_.rooms[0], claims_);
+  EXPECT_TRUE(std::equal(front.begin(), front.end(), kept.front.begin(), kept.front.end()));
+  EXPECT_EQ(kept.camera.width, first.camera.width);
+}
+
+TEST_F(Claiming, BodiesInOnePlaceShareRoom) {
+  accept(bin_.poses[0]);
+  EXPECT_GT(shared_room(render(bin_.poses[0]), claims_, 0.002F), 0.9F);
+  EXPECT_EQ(shared_room(render(bin_.poses[1]), claims_, 0.002F), 0.0F);
+}
+
+}  // namespace
+}  // namespace graspd
