@@ -86,8 +86,10 @@ bool differ(std::span<const Bank> banks, const Instance& a, const Instance& b) {
 }
 
 float lead_by_evidence(std::span<const Bank> banks, const Instance& own, const Instance& other) {
-  constexpr float weight = 0.5F;
-  constexpr float worth_of_all = 15.0F;
+  // A sensor that smears depth steps shows more or less of a surface by chance.
+  const float blur = own.evidence.blur;
+  const float weight = 0.5F + 1.1F * blur;
+  const float worth_of_all = 15.0F * (1.0F - blur);
   const auto explained = [&](const Instance& instance) {
     const float diameter = banks[instance.bank].part->diameter;
     return instance.evidence.confirmed * diameter * diameter;
