@@ -11,7 +11,7 @@ namespace graspd {
 
 namespace {
 
-constexpr int iterations = 5;
+constexpr int iterations = 4;
 constexpr float damping = 0.002F;
 constexpr int fewest_pairs = 30;
 

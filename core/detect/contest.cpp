@@ -13,7 +13,7 @@ namespace graspd {
 
 namespace {
 
-constexpr std::size_t most_contestants = 7;
+constexpr std::size_t most_contestants = 5;
 
 /// How far the mesh of a bank may lie off the part's surface, as a share of the diameter.
 constexpr float mesh_error = 0.001F;
