@@ -46,7 +46,7 @@ std::vector<RigidTransform> half_turns() {
 /// Detects boxes on a floor with a bank made from `part`.
 class Boxes {
  public:
-  explicit Boxes(const PartDescription& part) {
+  explicit Boxes(const PartDescription& part, int threads = 1) : memory_(threads) {
     BankReport report;
     Result<std::vector<std::byte>> built = build_bank(part, {}, report, [](float) {});
     EXPECT_TRUE(built.ok());
@@ -60,7 +60,9 @@ class Boxes {
     DetectRequest request;
     request.banks = std::span(&bank_, 1);
     request.minimum_score = 0.6F;
-    EXPECT_TRUE(detect({camera_, depth_, 0, 0}, request, {}, memory_.workspace, detections).ok());
+    DetectParameters parameters;
+    parameters.threads = threads;
+    EXPECT_TRUE(detect({camera_, depth_, 0, 0}, request, parameters, memory_.workspace, detections).ok());
   }
   [[nodiscard]] const Bank& bank() const { return bank_; }
   [[nodiscard]] std::uint32_t rejected(Rejection reason) const {
@@ -76,7 +78,7 @@ class Boxes {
   std::vector<float> depth_ = std::vector<float>(camera_.pixel_count(), floor);
   std::vector<std::byte> file_;
   Bank bank_;
-  DetectMemory memory_{1};
+  DetectMemory memory_;
 };
 
 TEST(AmbiguousPoses, ABoxWhoseHalfTurnsCountAsOtherPosesIsNotReported) {
@@ -100,6 +102,19 @@ TEST(AmbiguousPoses, ABoxWithAMarkTooLowForTheToleranceIsTurnedRightly) {
       return (instance.camera_from_part.translation - truth.translation).norm() < 0.001F &&
              rotation_angle(truth.rotation.transpose() * instance.camera_from_part.rotation) < 0.05F;
     }));
+  }
+}
+
+TEST(AmbiguousPoses, AreComparedAlikeByOneThreadAndTwo) {
+  const Boxes one(marked_box_part(), 1);
+  const Boxes two(marked_box_part(), 2);
+  ASSERT_EQ(two.detections.instances.size(), one.detections.instances.size());
+  for (std::size_t i = 0; i < one.detections.instances.size(); ++i) {
+    EXPECT_EQ(two.detections.instances[i].score, one.detections.instances[i].score);
+    EXPECT_EQ(two.detections.instances[i].camera_from_part.rotation,
+              one.detections.instances[i].camera_from_part.rotation);
+    EXPECT_EQ(two.detections.instances[i].camera_from_part.translation,
+              one.detections.instances[i].camera_from_part.translation);
   }
 }
 
