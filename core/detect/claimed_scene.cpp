@@ -78,7 +78,7 @@ std::size_t main_claimant(const SceneMap& map, const RenderedModel& model, const
       lead += number == holder ? 1 : -1;
     }
   }
-  return holder == 0 ? nobodys : holder - std::size_t{1};
+  return holder == 0 ? no_instance : holder - std::size_t{1};
 }
 
 float shared_room(const RenderedModel& candidate, const ClaimedScene& claims, float tolerance) {

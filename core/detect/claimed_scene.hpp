@@ -26,7 +26,7 @@ struct ClaimedScene {
   FixedVector<OccupiedRoom> rooms;  ///< Of the instances.
 };
 
-inline constexpr std::size_t nobodys = 0xFFFFFFFFU;
+inline constexpr std::size_t no_instance = 0xFFFFFFFFU;
 
 [[nodiscard]] ClaimedScene carve_claimed_scene(Arena& arena, const DetectCapacity& capacity);
 
@@ -46,7 +46,7 @@ void claim(const SceneMap& map, const RenderedModel& model, float tolerance, std
 /// Gives back the cells of accepted instance k, rendered as `model`.
 void release(const SceneMap& map, const RenderedModel& model, std::size_t k, ClaimedScene& claims);
 
-/// The accepted instance that claims the most of the model's surface, or nobodys.
+/// The accepted instance that claims the most of the model's surface, or no_instance.
 [[nodiscard]] std::size_t main_claimant(const SceneMap& map, const RenderedModel& model, const ClaimedScene& claims);
 
 /// The largest share of the candidate's cells, or of those of an accepted instance, in which the bodies of both would

@@ -13,8 +13,6 @@ namespace graspd {
 
 namespace {
 
-constexpr std::size_t most_contestants = 5;
-
 /// How far the mesh of a bank may lie off the part's surface, as a share of the diameter.
 constexpr float mesh_error = 0.001F;
 
@@ -103,14 +101,14 @@ float lead_by_evidence(std::span<const Bank> banks, const Instance& own, const I
 ContestOutcome hold_contest(const SceneMap& map, std::span<const Bank> banks, const VerifyParameters& parameters,
                             const Execution& execution, const Instance& own, std::span<const Rival> rivals,
                             std::uint32_t holder, std::span<float> image) {
-  std::array<Contestant, most_contestants> storage;
-  std::array<std::uint32_t, most_contestants> numbers;
+  std::array<Contestant, 1 + most_rivals> storage;
+  std::array<std::uint32_t, 1 + most_rivals> numbers;
   std::size_t count = 0;
   const auto enter = [&](const Instance& instance, std::uint32_t number) {
     numbers[count] = number;
     storage[count++].instance = instance;
   };
-  enter(own, nobody_else);
+  enter(own, no_rival);
   for (std::uint32_t r = 0; r < rivals.size() && count < storage.size(); ++r) {
     if (rivals[r].holder == holder) enter(rivals[r].instance, r);
   }

@@ -27,20 +27,23 @@ struct Rival {
 /// Rivals that lie further behind cannot win.
 inline constexpr float hopeless_lead = 3.0F;
 
-inline constexpr std::uint32_t nobody_else = 0xFFFFFFFFU;
+/// So many rivals of an instance are looked at, the best by their evidence.
+inline constexpr std::size_t most_rivals = 4;
+
+inline constexpr std::uint32_t no_rival = 0xFFFFFFFFU;
 
 struct ContestOutcome {
-  Instance winner;                    ///< Its pose refined against all cells, its evidence as it was.
-  std::uint32_t rival = nobody_else;  ///< Which of the rivals it is; nobody_else: the instance itself.
-  float others = 0;                   ///< How likely all others are together, in units of how likely the winner is,
-  float others_of_own = 0;            ///< and in units of how likely the instance itself is.
+  Instance winner;                 ///< Its pose refined against all cells, its evidence as it was.
+  std::uint32_t rival = no_rival;  ///< Which of the rivals it is; no_rival: the instance itself.
+  float others = 0;                ///< How likely all others are together, in units of how likely the winner is,
+  float others_of_own = 0;         ///< and in units of how likely the instance itself is.
 };
 
 /// Looks closely at the poses of one surface: refines each against all cells of the map that it covers and compares how
 /// likely the measured depths are under each. Verification counts cells within a tolerance that all poses share; this
 /// also tells apart poses that differ by less, such as turns of a part that is nearly round. Of `rivals` those of
-/// `holder` take part, the first few. Where there is no time, or too little was measured, the evidence alone decides
-/// and poses stay as they are. `image` holds renderings meanwhile.
+/// `holder` take part, the first most_rivals of them. Where there is no time, or too little was measured, the evidence
+/// alone decides and poses stay as they are. `image` holds renderings meanwhile.
 [[nodiscard]] ContestOutcome hold_contest(const SceneMap& map, std::span<const Bank> banks,
                                           const VerifyParameters& parameters, const Execution& execution,
                                           const Instance& own, std::span<const Rival> rivals, std::uint32_t holder,

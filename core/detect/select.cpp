@@ -13,7 +13,6 @@ namespace {
 
 constexpr int most_rounds = 3;
 constexpr float hopeless_score = 0.02F;
-constexpr std::uint32_t rivals_each = 8;  ///< Room is set aside for so many, on average.
 
 bool surer(const Instance& a, const Instance& b) { return a.score > b.score; }
 
@@ -36,13 +35,13 @@ struct Selection {
 void note_rival(const Selection& selection, const Instance& rival, const RenderedModel& model,
                 SelectWorkspace& workspace) {
   const std::size_t holder = main_claimant(selection.map, model, workspace.claims);
-  if (holder == nobodys) return;
+  if (holder == no_instance) return;
   Standing& standing = workspace.standings[holder];
-  if (workspace.rivals.full() || lead_by_evidence(selection.banks, standing.alone, rival) >= hopeless_lead ||
+  if (standing.rivals == most_rivals || lead_by_evidence(selection.banks, standing.alone, rival) >= hopeless_lead ||
       !differ(selection.banks, rival, standing.alone))
     return;
   workspace.rivals.push_back({static_cast<std::uint32_t>(holder), rival});
-  standing.contested = true;
+  ++standing.rivals;
 }
 
 /// Judges an instance by `own`, what the others leave it of the scene, and by the room that they leave.
@@ -81,9 +80,21 @@ Outcome consider(const Selection& selection, Instance& instance, SelectWorkspace
   if (instance.rejection != Rejection::none) return Outcome::refused;
   claim(selection.map, model, selection.tolerance(instance), accepted.size(), claims);
   claims.rooms.push_back({model.rectangle, room});
-  workspace.standings.push_back({alone, false, {}, 0.0F});
+  workspace.standings.push_back({alone, 0, {}, 0.0F});
   accepted.push_back(instance);
   return Outcome::accepted;
+}
+
+/// Among the rejected, `former` takes the place of the rival that has won.
+void refuse_instead(const Instance& former, const Instance& rival, FixedVector<Instance>& rejected) {
+  const RigidTransform& pose = rival.camera_from_part;
+  Instance* const place = std::find_if(rejected.begin(), rejected.end(), [&](const Instance& refused) {
+    return refused.bank == rival.bank && refused.camera_from_part.translation == pose.translation &&
+           refused.camera_from_part.rotation == pose.rotation;
+  });
+  if (place == rejected.end()) return;
+  *place = former;
+  place->rejection = Rejection::duplicate;
 }
 
 /// Puts the winner of the contest for accepted instance k in its place, if it holds beside all others: the instance
@@ -117,17 +128,8 @@ void adopt_winner(const Selection& selection, std::size_t k, SelectWorkspace& wo
   }
   accepted[k] = winner;
   standing.others = standing.outcome.others;
-  if (standing.outcome.rival != nobody_else) {
-    const RigidTransform& pose = workspace.rivals[standing.outcome.rival].instance.camera_from_part;
-    for (Instance& refused : rejected) {
-      if (refused.bank != winner.bank || refused.camera_from_part.translation != pose.translation ||
-          refused.camera_from_part.rotation != pose.rotation)
-        continue;
-      refused = former;
-      refused.rejection = Rejection::duplicate;
-      break;
-    }
-  }
+  if (standing.outcome.rival != no_rival)
+    refuse_instead(former, workspace.rivals[standing.outcome.rival].instance, rejected);
   room = {model.rectangle, new_room};
   claim(selection.map, model, selection.tolerance(winner), k, claims);
 }
@@ -138,14 +140,14 @@ void settle_contests(const Selection& selection, const Execution& execution, std
   // Those that time is not left for are to have an outcome too.
   parallel_for(accepted.size(), execution.threads, 1, [&](std::size_t k) {
     Standing& standing = workspace.standings[k];
-    if (!standing.contested) return;
+    if (standing.rivals == 0) return;
     standing.outcome = hold_contest(selection.map, selection.banks, selection.parameters, execution, standing.alone,
                                     workspace.rivals.span(), static_cast<std::uint32_t>(k),
                                     images[static_cast<std::size_t>(omp_get_thread_num())]);
     standing.others = standing.outcome.others_of_own;
   });
   for (std::size_t k = 0; k < accepted.size() && !execution.late(); ++k) {
-    if (workspace.standings[k].contested) adopt_winner(selection, k, workspace, accepted, rejected);
+    if (workspace.standings[k].rivals > 0) adopt_winner(selection, k, workspace, accepted, rejected);
   }
 }
 
@@ -182,7 +184,7 @@ SelectWorkspace carve_select_workspace(Arena& arena, const DetectCapacity& capac
   workspace.claims = carve_claimed_scene(arena, capacity);
   workspace.order = arena.take<std::uint32_t>(capacity.judged, "selection");
   workspace.standings = FixedVector(arena.take<Standing>(capacity.instances, "selection"));
-  workspace.rivals = FixedVector(arena.take<Rival>(std::size_t{rivals_each} * capacity.instances, "selection"));
+  workspace.rivals = FixedVector(arena.take<Rival>(most_rivals * capacity.instances, "selection"));
   return workspace;
 }
 

@@ -18,7 +18,7 @@ namespace graspd {
 /// How an accepted instance stands against the other poses of the surface that it claims.
 struct Standing {
   Instance alone;          ///< With the evidence for it alone.
-  bool contested = false;  ///< There are others.
+  std::size_t rivals = 0;  ///< How many poses of its surface are held against it.
   ContestOutcome outcome;
   float others = 0;  ///< How likely the others are together, in units of how likely the instance is.
 };
@@ -27,7 +27,7 @@ struct SelectWorkspace {
   ClaimedScene claims;
   std::span<std::uint32_t> order;
   FixedVector<Standing> standings;  ///< Of the accepted instances.
-  FixedVector<Rival> rivals;
+  FixedVector<Rival> rivals;        ///< Of all of them.
 };
 
 [[nodiscard]] SelectWorkspace carve_select_workspace(Arena& arena, const DetectCapacity& capacity);

@@ -54,7 +54,7 @@ TEST_F(Claiming, WhatIsReleasedIsNobodys) {
   release(scene_.map, second, 1, claims_);
   EXPECT_EQ(claimed_by(1), 0);
   EXPECT_EQ(claimed_by(0), first);
-  EXPECT_EQ(main_claimant(scene_.map, second, claims_), nobodys);
+  EXPECT_EQ(main_claimant(scene_.map, second, claims_), no_instance);
 }
 
 TEST_F(Claiming, ARoomKeepsItsModel) {

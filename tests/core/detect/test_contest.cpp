@@ -57,7 +57,7 @@ TEST_F(Contest, IsWonByThePoseThatExplainsTheDepths) {
 TEST_F(Contest, IsWonByTheInstanceItselfWhenThatIsRight) {
   const std::array rivals{Rival{2, judged(turned(-0.4F))}};
   const ContestOutcome outcome = hold(judged(turned(0.0F)), rivals);
-  EXPECT_EQ(outcome.rival, nobody_else);
+  EXPECT_EQ(outcome.rival, no_rival);
   EXPECT_LT(outcome.others, 0.5F);
   EXPECT_EQ(outcome.others, outcome.others_of_own);
 }
@@ -65,7 +65,7 @@ TEST_F(Contest, IsWonByTheInstanceItselfWhenThatIsRight) {
 TEST_F(Contest, IsHeldAmongTheRivalsOfOneInstance) {
   const std::array rivals{Rival{1, judged(turned(0.0F))}, Rival{3, judged(turned(0.0F))}};
   const ContestOutcome outcome = hold(judged(turned(0.4F)), rivals);
-  EXPECT_EQ(outcome.rival, nobody_else);
+  EXPECT_EQ(outcome.rival, no_rival);
   EXPECT_EQ(outcome.others, 0.0F);
 }
 
@@ -74,7 +74,7 @@ TEST_F(Contest, IsDecidedByTheEvidenceWhenThereIsNoTime) {
   Instance own = judged(turned(0.4F));
   own.evidence.visible = 0.65F;
   const ContestOutcome outcome = hold(own, rivals, {1, long_past, 1});
-  EXPECT_EQ(outcome.rival, nobody_else);
+  EXPECT_EQ(outcome.rival, no_rival);
   EXPECT_EQ(outcome.winner.camera_from_part.rotation, turned(0.4F).rotation);
   const float lead = lead_by_evidence(std::span(&maker_.bank(), 1), own, rivals[0].instance);
   EXPECT_GT(lead, 0.0F);
