@@ -72,6 +72,20 @@ struct ColumnRays {
         after((static_cast<float>(v + 1) - camera.cy) / camera.fy) {}
 };
 
+/// Through four cells, of length 1 along z.
+[[nodiscard]] inline LaneVectors rays_through(const RowRays& row, const ColumnRays& column) {
+  return {row.here, Lanes{} + column.here, Lanes{} + 1.0F};
+}
+
+/// Along a grazing ray a small gap between surfaces looks long; below this slope it is noise of the rim.
+inline constexpr float least_slope = 0.25F;
+
+/// Whether a surface of normal `direction` may be the measured one: also where no normal was measured.
+[[nodiscard]] inline LaneMask like_normals(const MeasuredCells& measured, const LaneVectors& direction) {
+  constexpr float same_normal = 0.6F;
+  return ~measured.has_normal() | (dot(direction, measured.normal) > same_normal);
+}
+
 struct RenderedNormals {
   LaneVectors direction;  ///< Of unit length.
   LaneMask known;         ///< Not at the rim of the surface.
@@ -111,9 +125,6 @@ struct Verdicts {
 
 [[nodiscard]] inline Verdicts judge_cells(const MeasuredCells& measured, const ModelCells& cells, const Camera& camera,
                                           int u, int v, float tolerance) {
-  // Along a grazing ray a small gap between surfaces looks long; below this it is noise of the rim.
-  constexpr float least_slope = 0.25F;
-  constexpr float same_normal = 0.6F;
   const Lanes gap = measured.depth - cells.here;
   const LaneMask seen = (measured.depth > 0.0F) & (cells.here > 0.0F);
   const LaneMask in_reach = seen & (magnitude(gap) * least_slope <= tolerance);
@@ -122,13 +133,12 @@ struct Verdicts {
   const RowRays row(camera, u);
   const ColumnRays column(camera, v);
   const RenderedNormals normals = rendered_normals(cells, row, column, camera.fx);
-  const LaneVectors ray{row.here, Lanes{} + column.here, Lanes{} + 1.0F};
+  const LaneVectors ray = rays_through(row, column);
   const Lanes facing = magnitude(dot(normals.direction, ray)) / square_root(dot(ray, ray));
   const Lanes slope = normals.known ? larger(Lanes{} + least_slope, facing) : Lanes{} + 1.0F;
   verdicts.distance = magnitude(gap) * slope;
   const LaneMask together = in_reach & (verdicts.distance <= tolerance);
-  const LaneMask agrees =
-      ~normals.known | ~measured.has_normal() | (dot(normals.direction, measured.normal) > same_normal);
+  const LaneMask agrees = ~normals.known | like_normals(measured, normals.direction);
   verdicts.behind &= ~together;
   verdicts.occluded &= ~together;
   verdicts.confirmed = together & agrees & (measured.foreground != 0);

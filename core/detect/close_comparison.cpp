@@ -11,10 +11,6 @@ namespace graspd {
 
 namespace {
 
-constexpr int iterations = 4;
-constexpr float damping = 0.002F;
-constexpr int fewest_pairs = 30;
-
 /// Four cells of the rendered model side by side, and how far the measured surface is from them.
 struct ComparedCells {
   LaneMask seen;      ///< Measured, and covered by the model, but for its rims and steps, where sensors mix both sides.
@@ -27,8 +23,6 @@ struct ComparedCells {
 /// Calls visit(ComparedCells) for all cells that the model covers.
 template <class Visit>
 void for_each_compared(const SceneMap& map, const RenderedModel& model, const Visit& visit) {
-  // Along a grazing ray a small distance between surfaces looks long.
-  constexpr float least_slope = 0.25F;
   for (int v = 0; v < model.rectangle.height; ++v) {
     const ColumnRays column(model.camera, v);
     for (int u = 0; u < model.rectangle.width; u += static_cast<int>(lane_count)) {
@@ -40,7 +34,7 @@ void for_each_compared(const SceneMap& map, const RenderedModel& model, const Vi
       compared.measured = measured_cells(map, model, u, v);
       compared.seen = (cells.here > 0.0F) & (compared.measured.depth > 0.0F) & normals.inner;
       if (!any(compared.seen)) continue;
-      const LaneVectors ray{row.here, Lanes{} + column.here, Lanes{} + 1.0F};
+      const LaneVectors ray = rays_through(row, column);
       compared.normal = normals.direction;
       compared.point = ray * cells.here;
       compared.distance = (compared.measured.depth - cells.here) *
@@ -54,7 +48,9 @@ void for_each_compared(const SceneMap& map, const RenderedModel& model, const Vi
 
 DenseFit refine_densely(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part, float tolerance,
                         std::span<float> image) {
-  constexpr float same_normal = 0.6F;
+  constexpr int iterations = 4;
+  constexpr float damping = 0.002F;
+  constexpr int fewest_pairs = 30;
   const float radius = 0.5F * bank.part->diameter;
   DenseFit fit{camera_from_part, 0.0F, true};
   float gate = tolerance;
@@ -66,7 +62,7 @@ DenseFit refine_densely(const SceneMap& map, const Bank& bank, const RigidTransf
     float weights = 0;
     for_each_compared(map, model, [&](const ComparedCells& cells) {
       const LaneMask agree = cells.seen & (cells.measured.foreground != 0) & (magnitude(cells.distance) < gate) &
-                             (~cells.measured.has_normal() | (dot(cells.normal, cells.measured.normal) > same_normal));
+                             like_normals(cells.measured, cells.normal);
       if (!any(agree)) return;
       for (std::size_t i = 0; i < lane_count; ++i) {
         if (agree[i] == 0) continue;

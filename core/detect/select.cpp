@@ -113,6 +113,7 @@ void adopt_winner(const Selection& selection, std::size_t k, SelectWorkspace& wo
   release(selection.map, former_model, k, claims);
   room.rectangle = {};
   const Instance former = accepted[k];
+  // In its place already, or the instance that it replaces would be company to it.
   accepted[k] = winner;
   bool holds = !model.rectangle.empty();
   if (holds) {
