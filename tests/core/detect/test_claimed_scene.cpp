@@ -3,22 +3,17 @@
 #include <algorithm>
 
 #include "core/detect/claimed_scene.hpp"
-#include "core/detect/preprocess.hpp"
-#include "tests/core/detect/bracket_scene.hpp"
+#include "tests/core/detect/bracket_map.hpp"
 
 namespace graspd {
 namespace {
 
-class Claiming : public testing::Test {
+class Claiming : public BracketMap {
  protected:
-  BracketBank maker_;
-  BracketScene bin_;
-  DetectMemory memory_{1};
-  Scene scene_;
   ClaimedScene claims_;
 
   void SetUp() override {
-    scene_ = preprocess(bin_.frame(), {}, maker_.bank().part->detail, {}, {}, memory_.workspace.preprocess);
+    BracketMap::SetUp();
     claims_ = memory_.workspace.select.claims;
     std::fill(claims_.cells.begin(), claims_.cells.end(), std::uint16_t{0});
     claims_.rooms.clear();

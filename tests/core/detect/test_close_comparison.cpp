@@ -3,9 +3,8 @@
 #include <cmath>
 
 #include "core/detect/close_comparison.hpp"
-#include "core/detect/preprocess.hpp"
 #include "core/geometry/chance.hpp"
-#include "tests/core/detect/bracket_scene.hpp"
+#include "tests/core/detect/bracket_map.hpp"
 
 namespace graspd {
 namespace {
@@ -13,20 +12,16 @@ namespace {
 constexpr float noise = 0.0002F;
 
 /// The brackets with noise in their depths, laid out as a map.
-class CloseComparison : public testing::Test {
+class CloseComparison : public BracketMap {
  protected:
-  BracketBank maker_;
-  BracketScene bin_;
-  DetectMemory memory_{1};
-  Scene scene_;
   std::span<float> image_;
 
   void SetUp() override {
     for (std::size_t i = 0; i < bin_.depth.size(); ++i) bin_.depth[i] += noise * normal_from(word_at(7, i));
-    scene_ = preprocess(bin_.frame(), {}, maker_.bank().part->detail, {}, {}, memory_.workspace.preprocess);
+    BracketMap::SetUp();
     image_ = memory_.workspace.rendering[0];
   }
-  [[nodiscard]] float tolerance() const { return 0.4F * maker_.bank().part->detail; }
+  [[nodiscard]] float tolerance() const { return surface_tolerance(scene_.map, maker_.bank(), {}); }
   /// How far the surface that faces the sensor is moved along its normals, at most: what depths can tell.
   [[nodiscard]] float distance(const RigidTransform& pose, const RigidTransform& truth) const {
     float farthest = 0;
@@ -86,7 +81,7 @@ TEST_F(CloseComparison, TheTruthIsLikelierThanWhatIsBesideIt) {
 TEST_F(CloseComparison, WhereNothingWasMeasuredNothingIsLikelier) {
   std::fill(bin_.depth.begin(), bin_.depth.end(), 0.0F);
   bin_.depth.front() = 0.5F;
-  scene_ = preprocess(bin_.frame(), {}, maker_.bank().part->detail, {}, {}, memory_.workspace.preprocess);
+  lay_out();
   EXPECT_EQ(log_likelihood(scene_.map, maker_.bank(), bin_.poses.front(), {noise, 0.07F}, image_), 0.0F);
 }
 

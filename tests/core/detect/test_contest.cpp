@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "core/detect/contest.hpp"
-#include "core/detect/preprocess.hpp"
 #include "core/geometry/symmetry.hpp"
-#include "tests/core/detect/bracket_scene.hpp"
+#include "tests/core/detect/bracket_map.hpp"
 
 namespace graspd {
 namespace {
@@ -14,16 +13,8 @@ namespace {
 std::int64_t long_past() { return 100; }
 
 /// Poses of a bracket that verification took for equally good.
-class Contest : public testing::Test {
+class Contest : public BracketMap {
  protected:
-  BracketBank maker_;
-  BracketScene bin_;
-  DetectMemory memory_{1};
-  Scene scene_;
-
-  void SetUp() override {
-    scene_ = preprocess(bin_.frame(), {}, maker_.bank().part->detail, {}, {}, memory_.workspace.preprocess);
-  }
   [[nodiscard]] static Instance judged(const RigidTransform& camera_from_part) {
     Instance instance;
     instance.camera_from_part = camera_from_part;
