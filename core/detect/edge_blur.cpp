@@ -47,13 +47,15 @@ float measure_edge_blur(const DepthFrame& frame, float detail, const Execution& 
   constexpr int line_step = 4;
   const Camera& camera = frame.camera;
   BlurSum sum;
+  // Beyond the image there is nothing to look at, and what stands right before the lens must not reach further.
+  const auto furthest = static_cast<float>(std::max(camera.width, camera.height));
   const auto reach_at = [&](float depth) {
-    return std::max(3, static_cast<int>(std::lround(reach_details * detail * camera.fx / depth)));
+    return std::max(3, static_cast<int>(std::lround(std::min(reach_details * detail * camera.fx / depth, furthest))));
   };
   // `k` is the pixel's place on its line.
   const auto take_pixel = [&](int u, int v, std::ptrdiff_t pitch, int k, int length, float focal_length) {
     const float* const pixel = &frame.depth[camera.index(u, v)];
-    if (*pixel <= 0.0F) return;
+    if (!is_measured(*pixel)) return;
     const int reach = reach_at(*pixel);
     if (k >= 2 * reach && k + 2 * reach < length) take_step(pixel, pitch, reach, detail, focal_length, sum);
   };

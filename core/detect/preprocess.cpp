@@ -20,7 +20,7 @@ float typical_depth(const DepthFrame& frame) {
     std::size_t nearer = 0;
     std::size_t all = 0;
     for (std::size_t i = 0; i < frame.depth.size(); i += step) {
-      if (frame.depth[i] <= 0.0F) continue;
+      if (!is_measured(frame.depth[i])) continue;
       ++all;
       nearer += frame.depth[i] < middle ? 1 : 0;
     }
@@ -91,7 +91,7 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float det
   scene.edges = {workspace.edges.nearest.first(scene.map.cells.size())};
   find_depth_edges(scene.map, static_cast<int>(2.0F * parameters.cells_per_detail), execution, scene.edges);
 
-  for (const float depth : frame.depth) scene.measured_pixels += depth > 0.0F ? 1 : 0;
+  for (const float depth : frame.depth) scene.measured_pixels += is_measured(depth) ? 1 : 0;
   for (const MapCell& cell : scene.map.cells) scene.foreground_cells += cell.foreground != 0 ? 1 : 0;
   return scene;
 }

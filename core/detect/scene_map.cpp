@@ -9,10 +9,6 @@ namespace graspd {
 
 namespace {
 
-/// Depths (metres) beyond these are no measurements.
-constexpr float nearest_depth = 1e-6F;
-constexpr float furthest_depth = 1e6F;
-
 /// Depth range [low, high] that holds the larger of the two surfaces seen in a block.
 struct DepthRange {
   float low = 0;
@@ -45,11 +41,11 @@ DepthRange range_of_block(const DepthFrame& frame, int stride, int mu, int mv, f
 
 /// Halves the range, keeping the fuller half, until it is one surface.
 DepthRange larger_surface(const DepthFrame& frame, int stride, int mu, int mv, float step) {
-  DepthRange range = range_of_block(frame, stride, mu, mv, nearest_depth, furthest_depth);
+  DepthRange range = range_of_block(frame, stride, mu, mv, least_depth, greatest_depth);
   for (int halving = 0; halving < 8 && range.count > 0 && range.high - range.low > step; ++halving) {
     const float middle = 0.5F * (range.low + range.high);
     const DepthRange near = range_of_block(frame, stride, mu, mv, range.low, middle);
-    const DepthRange far = range_of_block(frame, stride, mu, mv, std::nextafter(middle, furthest_depth), range.high);
+    const DepthRange far = range_of_block(frame, stride, mu, mv, std::nextafter(middle, greatest_depth), range.high);
     range = near.count >= far.count ? near : far;
   }
   return range;
@@ -87,14 +83,14 @@ struct WholeBlock {
 };
 
 WholeBlock read_block(const DepthFrame& frame, int stride, int mu, int mv) {
-  WholeBlock block{{furthest_depth, nearest_depth, 0}, {}};
+  WholeBlock block{{greatest_depth, least_depth, 0}, {}};
   const int v_end = std::min((mv + 1) * stride, frame.camera.height);
   const int u_end = std::min((mu + 1) * stride, frame.camera.width);
   for (int v = mv * stride; v < v_end; ++v) {
     for (int u = mu * stride; u < u_end; ++u) {
       const float z = frame.at(u, v);
       // Without branches: whether a pixel was measured is hard to foretell.
-      const bool measured = z >= nearest_depth && z <= furthest_depth;
+      const bool measured = is_measured(z);
       block.range.low = measured && z < block.range.low ? z : block.range.low;
       block.range.high = measured && z > block.range.high ? z : block.range.high;
       block.range.count += measured ? 1 : 0;
@@ -106,8 +102,8 @@ WholeBlock read_block(const DepthFrame& frame, int stride, int mu, int mv) {
 
 /// The same of the blocks from (mu, mv) on, one in each lane; all of them whole.
 struct WholeBlocks {
-  Lanes low = Lanes{} + furthest_depth;
-  Lanes high = Lanes{} + nearest_depth;
+  Lanes low = Lanes{} + greatest_depth;
+  Lanes high = Lanes{} + least_depth;
   LaneMask count{};
   Lanes u{};
   Lanes v{};
@@ -122,7 +118,7 @@ WholeBlocks read_blocks(const DepthFrame& frame, int stride, int mu, int mv) {
     const float* const row = &frame.depth[frame.camera.index(mu * stride, v)];
     for (int k = 0; k < stride; ++k) {
       const Lanes z{row[k], row[stride + k], row[2 * stride + k], row[3 * stride + k]};
-      const LaneMask measured = (z >= nearest_depth) & (z <= furthest_depth);
+      const LaneMask measured = (z >= least_depth) & (z <= greatest_depth);
       blocks.low = (measured & (z < blocks.low)) ? z : blocks.low;
       blocks.high = (measured & (z > blocks.high)) ? z : blocks.high;
       blocks.count -= measured;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/detect/edge_blur.hpp"
@@ -47,6 +48,19 @@ TEST(EdgeBlur, IsNothingWhereNothingWasMeasuredBetweenTheSurfaces) {
   Plateaus plateaus(10);
   for (float& z : plateaus.depth) z = z > 0.4801F && z < 0.4999F ? 0.0F : z;
   EXPECT_EQ(measure_edge_blur(plateaus.frame(), detail), 0.0F);
+}
+
+TEST(EdgeBlur, IsNotLedAstrayByWhatIsNoDepth) {
+  const float undisturbed = measure_edge_blur(Plateaus(10).frame(), detail);
+  // So near that what is looked at around it would exceed an integer, with these intrinsics or with those of a larger
+  // detail; and what no sensor measures.
+  for (const float depth :
+       {2e-9F, 1e-6F, 1e-30F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0F}) {
+    Plateaus plateaus(10);
+    plateaus.depth[plateaus.camera.index(160, 120)] = depth;
+    EXPECT_NEAR(measure_edge_blur(plateaus.frame(), detail), undisturbed, 1e-4F) << depth;
+    EXPECT_EQ(measure_edge_blur(plateaus.frame(), 1.0F), 0.0F) << depth;
+  }
 }
 
 TEST(EdgeBlur, DoesNotGuessFromAFewSteps) {
