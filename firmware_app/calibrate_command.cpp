@@ -31,7 +31,7 @@ void print_residuals(const CalibrationFile& file, const HandEyeSolution& solutio
               solution.translation_deviation * millimetres, solution.rotation_deviation * degrees);
 }
 
-void print_warnings(const HandEyeSolution& solution) {
+void print_warnings(const HandEyeSolution& solution, bool in_hand) {
   const Eigen::Vector3d& axis = solution.turn_axis;
   if ((solution.warnings & hand_eye_no_turn) != 0) {
     std::printf(
@@ -40,9 +40,9 @@ void print_warnings(const HandEyeSolution& solution) {
   }
   if ((solution.warnings & hand_eye_one_axis) != 0) {
     std::printf(
-        "\nwarning: all turns are about one axis, (%.2f, %.2f, %.2f) of the flange, within %.1f degrees; the "
+        "\nwarning: all turns are about one axis, (%.2f, %.2f, %.2f) of the %s, within %.1f degrees; the "
         "camera's place along it is NOT determined: add stops that are turned about another axis\n",
-        axis.x(), axis.y(), axis.z(), solution.turn_spread * degrees);
+        axis.x(), axis.y(), axis.z(), in_hand ? "flange" : "robot", solution.turn_spread * degrees);
   }
   if ((solution.warnings & hand_eye_few_pairs) != 0) {
     std::printf("\nwarning: fewer than five pairs; the residuals say little: add stops\n");
@@ -68,7 +68,7 @@ Status calibrate(const std::string& path) {
   print_pose(in_hand ? "flange_from_camera" : "robot_from_camera", solution.mount);
   print_pose(in_hand ? "# the target: robot_from_target" : "# the target: flange_from_target", solution.target);
   print_residuals(file, solution);
-  print_warnings(solution);
+  print_warnings(solution, in_hand);
   return {};
 }
 

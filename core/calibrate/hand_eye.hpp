@@ -42,7 +42,8 @@ struct HandEyeSolution {
   double translation_deviation = 0;  ///< Metres: standard deviation of the mount where it is determined worst.
   double rotation_deviation = 0;     ///< Radians, likewise.
   double turn_spread = 0;            ///< Radians: how far the flange turned about the second most used axis.
-  Eigen::Vector3d turn_axis = Eigen::Vector3d::Zero();  ///< The most used axis, frame of the flange.
+  Eigen::Vector3d turn_axis = Eigen::Vector3d::Zero();  ///< The most used axis, frame of the flange; of the robot when
+                                                        ///< the camera is fixed.
   std::uint32_t warnings = 0;                           ///< HandEyeWarning bits.
 };
 

@@ -23,10 +23,21 @@ std::vector<Motion> motions_between(std::span<const Stop> stops) {
   return motions;
 }
 
+namespace {
+
+/// The axis of a rotation times the sine of its angle. Near half a turn the sense of the axis is a matter of chance:
+/// there nothing is left of it.
+Eigen::Vector3d sine_and_axis(const Eigen::Matrix3d& rotation) {
+  const Eigen::Matrix3d odd = 0.5 * (rotation - rotation.transpose());
+  return {odd(2, 1), odd(0, 2), odd(1, 0)};
+}
+
+}  // namespace
+
 Pose first_answer(std::span<const Motion> motions) {
   Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
   for (const Motion& motion : motions) {
-    correlation += rotation_log(motion.camera.rotation) * rotation_log(motion.carrier.rotation).transpose();
+    correlation += sine_and_axis(motion.camera.rotation) * sine_and_axis(motion.carrier.rotation).transpose();
   }
   Pose answer;
   answer.rotation = nearest_rotation(correlation.transpose());

@@ -25,8 +25,8 @@ struct Motion {
 /// Between every two stops.
 [[nodiscard]] std::vector<Motion> motions_between(std::span<const Stop> stops);
 
-/// The mount by Park and Martin (1994): the rotation from the logarithms of both motions' rotations, then the
-/// translation by least squares.
+/// The mount by Park and Martin (1994): the rotation from the axes of both motions' rotations, weighed by the sines of
+/// their angles, where they take the angles; then the translation by least squares.
 [[nodiscard]] Pose first_answer(std::span<const Motion> motions);
 
 /// Where the target is with this mount, in the mean of all stops.

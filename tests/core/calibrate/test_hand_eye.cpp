@@ -124,6 +124,47 @@ TEST_P(HandEye, HalfTurnsBetweenStopsAreNoTrouble) {
   EXPECT_LT(place_error(solve_hand_eye(pairs, GetParam())), 1e-6);
 }
 
+TEST_P(HandEye, QuarterTurnsBetweenNoisyStopsAreNoTrouble) {
+  const bool in_hand = GetParam() == HandEyeSetup::eye_in_hand;
+  for (int cell = 0; cell < 40; ++cell) {
+    mount = pose(random_vector(3.0), random_vector(0.2));
+    stop_at(8, 0.0, Eigen::Vector3d::Ones(), 0.0005, 0.003);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const Eigen::Isometry3d noise = target.inverse() *
+                                      (in_hand ? pairs[i].robot_from_flange : pairs[i].robot_from_flange.inverse()) *
+                                      mount * pairs[i].camera_from_target;
+      // The flange looks down at four turns, and at the same once more while it leans.
+      const double quarters = 0.5 * std::numbers::pi * static_cast<double>(i % 4);
+      const Eigen::Vector3d lean = i < 4 ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(i % 2 == 0 ? -0.4 : 0.4, 0.3, 0);
+      pairs[i].robot_from_flange =
+          pairs[i].robot_from_flange * pose({0, 0, quarters}, {0, 0, 0}) * pose(lean, {0, 0, 0});
+      const Eigen::Isometry3d carrier = in_hand ? pairs[i].robot_from_flange : pairs[i].robot_from_flange.inverse();
+      pairs[i].camera_from_target = mount.inverse() * carrier.inverse() * target * noise;
+    }
+    const HandEyeSolution solution = solve_hand_eye(pairs, GetParam());
+    EXPECT_LT(place_error(solution), 0.01);
+    EXPECT_LT(turn_error(solution), 0.02);
+    EXPECT_EQ(solution.warnings, 0U);
+  }
+}
+
+TEST_P(HandEye, TheOneAxisIsThatOfTheFrameThatCarriesTheCamera) {
+  stop_at(10, 0.6, Eigen::Vector3d::UnitY(), 0.0, 0.0);
+  const Eigen::Isometry3d leaning = pose({0.9, 0.0, 0.0}, Eigen::Vector3d::Zero());
+  for (HandEyePair& pair : pairs) {
+    // Not the flange's y any more, but still the robot's.
+    pair.robot_from_flange = pair.robot_from_flange * leaning;
+    const bool in_hand = GetParam() == HandEyeSetup::eye_in_hand;
+    const Eigen::Isometry3d carrier = in_hand ? pair.robot_from_flange : pair.robot_from_flange.inverse();
+    pair.camera_from_target = mount.inverse() * carrier.inverse() * target;
+  }
+  const HandEyeSolution solution = solve_hand_eye(pairs, GetParam());
+  const Eigen::Vector3d of_flange = leaning.linear().transpose() * Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d expected =
+      GetParam() == HandEyeSetup::eye_in_hand ? of_flange : Eigen::Vector3d(Eigen::Vector3d::UnitY());
+  EXPECT_NEAR(std::abs(solution.turn_axis.dot(expected)), 1.0, 1e-6);
+}
+
 INSTANTIATE_TEST_SUITE_P(BothSetups, HandEye, testing::Values(HandEyeSetup::eye_in_hand, HandEyeSetup::eye_to_hand));
 
 }  // namespace
