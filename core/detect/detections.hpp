@@ -68,7 +68,7 @@ enum DetectionFlag : std::uint32_t {
   flag_hypotheses_cut = 1U << 1U,
   flag_instances_cut = 1U << 2U,
   flag_deadline = 1U << 3U,    ///< The deadline passed: verified instances so far.
-  flag_voting_cut = 1U << 4U,  ///< The voting would have taken more than its budget: fewer reference points voted.
+  flag_voting_cut = 1U << 4U,  ///< The voting would have taken more than its budget or memory: fewer points voted.
 };
 
 enum class Stage : std::uint8_t { preprocess, match, cluster, refine, verify };
@@ -81,7 +81,7 @@ struct VotingWork {
   std::uint64_t cells = 0;  ///< Cells of the table that were read; pairs that repeat a vote are passed over.
   std::uint64_t votes = 0;
   std::uint64_t effort = 0;    ///< What all that takes, in votes that are cast one by one.
-  std::uint32_t left_out = 0;  ///< Reference points that did not vote because the budget was spent.
+  std::uint32_t left_out = 0;  ///< Reference points that did not vote: the budget was spent, or the memory full.
 
   void operator+=(const VotingWork& other) {
     pairs += other.pairs;

@@ -79,10 +79,12 @@ VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParame
   const Voting vote = voting_with(widest_instruction_set());
   const std::size_t per_reference =
       std::clamp<std::size_t>(static_cast<std::size_t>(parameters.peaks_per_reference), 1, most_peaks);
-  std::size_t step = static_cast<std::size_t>(std::max(1, parameters.reference_step));
+  const auto asked_step = static_cast<std::size_t>(std::max(1, parameters.reference_step));
+  std::size_t step = asked_step;
   // Too many references for the memory: every so many more are passed over, evenly over the scene.
   while ((scene.points.size() / step + 1) * per_reference > workspace.slots.size()) ++step;
-  const std::size_t references = (scene.points.size() + step - 1) / step;
+  const auto references_at = [&](std::size_t every) { return (scene.points.size() + every - 1) / every; };
+  const std::size_t references = references_at(step);
 
   std::fill_n(workspace.slots_used.begin(), references, std::uint8_t{0});
   const auto vote_from = [&](std::size_t i) {
@@ -111,7 +113,7 @@ VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParame
     work = {};
     for (const VotingScratch& scratch : workspace.threads) work += scratch.work;
   }
-  if (done < ReferenceClasses::count) work.left_out = static_cast<std::uint32_t>(references - classes.size(done));
+  work.left_out = static_cast<std::uint32_t>(references_at(asked_step) - classes.size(done));
   for (std::size_t i = 0; i < references; ++i) {
     for (std::size_t k = 0; k < workspace.slots_used[i]; ++k)
       hypotheses.push_back(workspace.slots[i * per_reference + k]);

@@ -63,6 +63,20 @@ TEST_F(VotingBudget, IsKeptByLeavingPointsOutEvenly) {
   EXPECT_EQ(found(cut), parts);
 }
 
+TEST_F(VotingBudget, MemoryThatIsFullLeavesPointsOutAndSaysSo) {
+  DetectCapacity capacity;
+  capacity.maximum_width = 400;
+  capacity.maximum_height = 300;
+  capacity.hypotheses = 600;
+  std::unique_ptr<std::byte[]> bytes;
+  memory.workspace = carved_into(bytes, [&](Arena& arena) { return carve_detect_workspace(arena, capacity); });
+  const Detections cut = detect_with(DetectParameters{}.match.budget);
+  EXPECT_NE(cut.flags & flag_voting_cut, 0U);
+  EXPECT_LE(cut.work.hypotheses, capacity.hypotheses);
+  // For six poses of each, a hundred points have room.
+  EXPECT_NEAR(cut.work.voting.left_out, cut.scene_points - 100.0, 10.0);
+}
+
 TEST_F(VotingBudget, OfNothingLetsAFewVote) {
   const Detections cut = detect_with(0);
   EXPECT_NE(cut.flags & flag_voting_cut, 0U);
