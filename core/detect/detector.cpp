@@ -96,6 +96,12 @@ std::int64_t expected_selection_ns(std::span<const Instance> judged, std::span<c
   return all == 0 ? 0 : halves * judging_ns / (2 * all);
 }
 
+/// How many poses of a part may go on so that they fit into `room` with their twins; one at least.
+int most_without_twins(const Bank& bank, const RefineParameters& parameters, std::size_t room) {
+  const std::size_t twins = std::min(bank.twins.size(), static_cast<std::size_t>(std::max(parameters.twins, 0)));
+  return std::min(parameters.judged, static_cast<int>(std::max<std::size_t>(room / (1 + twins), 1)));
+}
+
 /// Refines the clusters to the end and judges them, those that agree best with the scene first, as long as there is
 /// time: a few at a time, for only what was judged counts, and so that there is time to select from them.
 void judge_clusters(const Scene& scene, const DetectRequest& request, std::uint32_t bank_index,
@@ -199,8 +205,10 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
     if (execution.late()) break;
     // Each part gets its share of the memory, whatever came before it.
     const std::size_t share = workspace.capacity.judged / request.banks.size();
-    narrow_down(scene, bank, parameters.refine, std::min(parameters.refine.judged, static_cast<int>(share)), execution,
-                workspace.select.claims.cells, workspace.clusters);
+    const int most = most_without_twins(bank, parameters.refine, share);
+    narrow_down(scene, bank, parameters.refine, most, execution, workspace.select.claims.cells, workspace.clusters);
+    if (most < parameters.refine.judged && workspace.clusters.size() >= static_cast<std::size_t>(most))
+      detections.flags |= flag_hypotheses_cut;
     drop_contradicted(scene, bank, parameters.refine, surface_tolerance(scene.map, bank, parameters.verify), execution,
                       workspace.clusters);
     record(request.trace, b, TracedStage::distinct, workspace.clusters);
