@@ -168,6 +168,7 @@ const char* shape_fault(const Bank& bank) {
   if (bank.symmetry_discrete.empty() || !is_identity(bank.symmetry_discrete.front())) {
     return "its symmetries do not begin with the identity";
   }
+  if (bank.symmetry_discrete.size() > most_symmetries) return "it has more symmetries than any part";
   const auto all_keep_place = [&](std::span<const RigidTransform> poses) {
     return std::all_of(poses.begin(), poses.end(), [&](const RigidTransform& t) { return keeps_place(*bank.part, t); });
   };

@@ -59,8 +59,6 @@ Eigen::Vector3i cell_of(const Vector3& centre, float edge) {
   return (centre / edge).array().floor().matrix().cast<int>();
 }
 
-constexpr std::size_t most_symmetry = 128;
-
 }  // namespace
 
 ClusterWorkspace carve_cluster_workspace(Arena& arena, const DetectCapacity& capacity) {
@@ -74,8 +72,8 @@ ClusterWorkspace carve_cluster_workspace(Arena& arena, const DetectCapacity& cap
 void cluster_hypotheses(std::span<const Hypothesis> hypotheses, const Bank& bank, const ClusterParameters& parameters,
                         const Execution& execution, ClusterWorkspace& workspace, FixedVector<PoseCluster>& clusters) {
   clusters.clear();
-  std::array<Quaternion, most_symmetry> symmetry;
-  const std::size_t members = std::min(bank.symmetry_discrete.size(), most_symmetry);
+  std::array<Quaternion, most_symmetries> symmetry;
+  const std::size_t members = std::min(bank.symmetry_discrete.size(), most_symmetries);
   for (std::size_t s = 0; s < members; ++s) symmetry[s] = quaternion_of(bank.symmetry_discrete[s].rotation);
   const std::span<const Quaternion> group(symmetry.data(), members);
   const bool continuous = bank.part->symmetry_continuous != 0;

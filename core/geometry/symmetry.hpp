@@ -12,6 +12,9 @@ struct SymmetryAxis {
   Vector3 point = Vector3::Zero();       ///< Any point on the line (metres, part frame).
 };
 
+/// The most discrete transforms that a part's symmetry may have.
+inline constexpr std::size_t most_symmetries = 256;
+
 /// The poses of a part that cannot be told apart: each discrete transform, combined with any turn
 /// about the axis when there is one (the same meaning as in BOP's models_info.json).
 struct Symmetry {

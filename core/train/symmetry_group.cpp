@@ -8,8 +8,6 @@ namespace graspd {
 
 namespace {
 
-constexpr std::size_t maximum_members = 256;
-
 bool same(const RigidTransform& a, const RigidTransform& b, float length) {
   return (a.rotation - b.rotation).norm() < 0.02F && (a.translation - b.translation).norm() < 0.02F * length;
 }
@@ -27,7 +25,7 @@ SymmetryGroup close_group(std::span<const RigidTransform> generators, bool conti
       product.rotation = orthonormalised(product.rotation);
       const bool known = std::any_of(group.discrete.begin(), group.discrete.end(),
                                      [&](const RigidTransform& member) { return same(member, product, length); });
-      if (!known && group.discrete.size() < maximum_members) group.discrete.push_back(product);
+      if (!known && group.discrete.size() < most_symmetries) group.discrete.push_back(product);
     }
   }
   return group;

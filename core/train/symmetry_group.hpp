@@ -9,7 +9,7 @@
 namespace graspd {
 
 /// Symmetries with their own storage: the identity first, closed under composition as far as
-/// `maximum_members` allows.
+/// `most_symmetries` allows.
 struct SymmetryGroup {
   std::vector<RigidTransform> discrete{RigidTransform{}};
   bool continuous = false;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/bank/bank.hpp"
+#include "core/bank/bank_check.hpp"
 #include "tests/core/bank/small_bank.hpp"
 
 namespace graspd {
@@ -152,6 +153,16 @@ struct Fault {
 };
 
 class BankContents : public testing::TestWithParam<Fault> {};
+
+TEST(BankFile, WithMoreSymmetriesThanThereIsRoomForIsRefused) {
+  const SmallBank bank;
+  Bank many = bank.view();
+  const std::vector<RigidTransform> alike(most_symmetries + 1);
+  many.symmetry_discrete = alike;
+  EXPECT_THAT(find_bank_fault(many), HasSubstr("more symmetries"));
+  many.symmetry_discrete = std::span(alike).first(most_symmetries);
+  EXPECT_EQ(find_bank_fault(many), nullptr);
+}
 
 TEST_P(BankContents, AreRefusedWithTheirFault) {
   SmallBank bank;
