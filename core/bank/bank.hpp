@@ -32,6 +32,12 @@ struct BankExpectation {
   std::uint32_t instances = 0;  ///< On which the recalls were measured; 0: nothing was measured.
 };
 
+/// What a part may measure across (metres): beyond that its unit was mistaken.
+inline constexpr float least_diameter = 1e-4F;
+inline constexpr float greatest_diameter = 1e3F;
+/// How far the middle of a part may lie from its origin along an axis of coordinates (metres).
+inline constexpr float furthest_centre = 1e4F;
+
 /// What a bank says of its part. Lengths in metres, part frame.
 struct BankPart {
   std::array<char, 64> name{};       ///< Zero-terminated.

@@ -35,13 +35,15 @@ const char* part_fault(const BankPart& part) {
                        part.sampling > 0.0F && part.centre.allFinite() && part.box_min.allFinite() &&
                        part.box_max.allFinite() && (part.box_min.array() <= part.box_max.array()).all();
   if (!lengths) return "the part's measures are not numbers or not positive";
-  if (!is_within(part.sampling / part.diameter, 1e-4F, 1.0F) || !is_within(part.diameter, 1e-4F, 1e3F)) {
+  if (!is_within(part.diameter, least_diameter, greatest_diameter)) return "the part is impossibly small or large";
+  if (!is_within(part.sampling / part.diameter, 1e-4F, 1.0F)) {
     return "the part's diameter and sampling contradict each other";
   }
   if (!is_within(part.detail, 0.1F * part.sampling, part.sampling)) {
     return "the part's sampling and detail contradict each other";
   }
-  if (!is_within(part.centre.cwiseAbs().maxCoeff(), 0.0F, 1e4F)) return "the part lies too far from its origin";
+  if (!is_within(part.centre.cwiseAbs().maxCoeff(), 0.0F, furthest_centre))
+    return "the part lies too far from its origin";
   if (part.symmetry_continuous > 1 || !part.symmetry_axis.point.allFinite() || !is_unit(part.symmetry_axis.direction)) {
     return "the part's symmetry axis is not a line";
   }

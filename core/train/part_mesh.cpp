@@ -7,6 +7,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "core/bank/bank.hpp"
 #include "core/train/mesh_edges.hpp"
 #include "core/train/view_sphere.hpp"
 
@@ -42,12 +43,22 @@ struct GridCellHash {
   }
 };
 
-/// Each vertex's number among the distinct places, and the places.
-std::vector<std::uint32_t> merge_places(const std::vector<Vector3>& vertices, float tolerance,
-                                        std::vector<Vector3>& places) {
+/// The vertices of faces: files may carry others, anywhere.
+std::vector<bool> used_vertices(const Mesh& mesh) {
+  std::vector<bool> used(mesh.vertices.size(), false);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t vertex : t) used[vertex] = true;
+  }
+  return used;
+}
+
+/// The number of each vertex that is used among the distinct places, and the places.
+std::vector<std::uint32_t> merge_places(const std::vector<Vector3>& vertices, const std::vector<bool>& used,
+                                        float tolerance, std::vector<Vector3>& places) {
   std::unordered_map<GridCell, std::vector<std::uint32_t>, GridCellHash> cells;
   std::vector<std::uint32_t> place_of(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (!used[i]) continue;
     const Eigen::Vector3d scaled = vertices[i].cast<double>() / static_cast<double>(tolerance);
     const GridCell cell{static_cast<std::int64_t>(std::floor(scaled.x())),
                         static_cast<std::int64_t>(std::floor(scaled.y())),
@@ -162,6 +173,20 @@ float find_diameter(const std::vector<Vector3>& vertices) {
   return std::sqrt(best);
 }
 
+/// Whether a bank can hold the part: else its unit was mistaken, or it stands somewhere in a plant.
+Status check_size(const PartMesh& part) {
+  if (part.diameter < least_diameter || part.diameter > greatest_diameter) {
+    return Status::format(StatusCode::bad_file, "the part would be %.4g mm across: is the unit of its mesh right?",
+                          1e3 * static_cast<double>(part.diameter));
+  }
+  const float aside = (0.5F * (part.box_min + part.box_max)).cwiseAbs().maxCoeff();
+  if (aside > furthest_centre) {
+    return Status::format(StatusCode::bad_file, "the part would lie %.4g mm from the origin of its mesh",
+                          1e3 * static_cast<double>(aside));
+  }
+  return {};
+}
+
 std::string count_of(std::size_t count, const char* what) { return std::to_string(count) + what; }
 
 }  // namespace
@@ -169,15 +194,13 @@ std::string count_of(std::size_t count, const char* what) { return std::to_strin
 Result<PartMesh> prepare_mesh(const Mesh& mesh) {
   if (Status status = check_mesh(mesh); !status.ok()) return status;
   PartMesh part;
-  // Only vertices of faces count: files may carry others.
-  const Vector3& first = mesh.vertices[mesh.triangles.front()[0]];
-  part.box_min = first;
-  part.box_max = first;
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t vertex : t) {
-      part.box_min = part.box_min.cwiseMin(mesh.vertices[vertex]);
-      part.box_max = part.box_max.cwiseMax(mesh.vertices[vertex]);
-    }
+  const std::vector<bool> used = used_vertices(mesh);
+  part.box_min = Vector3::Constant(std::numeric_limits<float>::infinity());
+  part.box_max = -part.box_min;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!used[i]) continue;
+    part.box_min = part.box_min.cwiseMin(mesh.vertices[i]);
+    part.box_max = part.box_max.cwiseMax(mesh.vertices[i]);
   }
   const float extent = (part.box_max - part.box_min).norm();
   if (!(extent > 1e-6F) || !std::isfinite(extent)) {
@@ -185,7 +208,7 @@ Result<PartMesh> prepare_mesh(const Mesh& mesh) {
   }
 
   std::vector<Vector3> places;
-  const std::vector<std::uint32_t> place_of = merge_places(mesh.vertices, extent * 1e-6F, places);
+  const std::vector<std::uint32_t> place_of = merge_places(mesh.vertices, used, extent * 1e-6F, places);
   constexpr std::uint32_t unused = 0xFFFFFFFFU;
   std::vector<std::uint32_t> number(places.size(), unused);
   std::size_t dropped = 0;
@@ -226,6 +249,7 @@ Result<PartMesh> prepare_mesh(const Mesh& mesh) {
   }
   for (const Triangle& t : part.mesh.triangles) part.area += 0.5F * face_vector(part.mesh, t).norm();
   part.diameter = find_diameter(part.mesh.vertices);
+  if (Status status = check_size(part); !status.ok()) return status;
   return part;
 }
 

@@ -34,8 +34,8 @@ struct PartMesh {
 
 /// Merges vertices that stand at one place, drops faces without area, turns faces of a connected
 /// piece one way and closed pieces outward; open pieces keep the sense in which most of them was given. Fails with
-/// bad_file when the mesh has no faces, a face names a missing vertex, a vertex is not finite, or nothing has an
-/// extent.
+/// bad_file when the mesh has no faces, a face names a missing vertex, a vertex is not finite, nothing has an extent,
+/// or the part is smaller, larger or further from its origin than a bank can hold.
 [[nodiscard]] Result<PartMesh> prepare_mesh(const Mesh& mesh);
 
 /// The outward normal of a face times twice its area.

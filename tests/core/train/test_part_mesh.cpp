@@ -64,6 +64,15 @@ TEST(PartMesh, DropsFacesWithoutAreaAndVerticesWithoutFaces) {
   EXPECT_LT(part.diameter, 0.1F);
 }
 
+TEST(PartMesh, DoesNotLookAtVerticesOfNoFace) {
+  Mesh mesh = shapes::box(0.06F, 0.04F, 0.02F);
+  mesh.vertices.emplace_back(1e30F, -1e30F, 0.0F);
+  const PartMesh part = prepared(mesh);
+  EXPECT_EQ(part.mesh.vertices.size(), 8U);
+  EXPECT_TRUE(part.remarks.empty());
+  EXPECT_LT(part.diameter, 0.1F);
+}
+
 TEST(PartMesh, SaysThatAMeshIsOpen) {
   Mesh mesh = shapes::box(0.06F, 0.04F, 0.02F);
   mesh.triangles.pop_back();
@@ -103,6 +112,13 @@ TEST(PartMesh, RefusesWhatCannotMakeAPart) {
   EXPECT_EQ(message(mesh), "face 2 of the mesh names vertex 8 of 8");
 
   EXPECT_EQ(message(shapes::box(0, 0, 0)), "the mesh has no extent: is its unit right?");
+
+  EXPECT_EQ(message(shapes::box(6e-5F, 4e-5F, 2e-5F)),
+            "the part would be 0.07483 mm across: is the unit of its mesh right?");
+  EXPECT_EQ(message(shapes::box(6e3F, 4e3F, 2e3F)),
+            "the part would be 7.483e+06 mm across: is the unit of its mesh right?");
+  EXPECT_EQ(message(shapes::moved(shapes::box(60, 40, 20), {Matrix3::Identity(), Vector3(0, -2e4F, 0)})),
+            "the part would lie 2e+07 mm from the origin of its mesh");
 
   mesh = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
   EXPECT_EQ(message(mesh), "no face of the mesh has an area");
