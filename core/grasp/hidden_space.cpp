@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/grasp/bounding_sphere.hpp"
+
 namespace graspd {
 namespace {
 
@@ -74,7 +76,8 @@ struct Cover {
 
 Cover cover_of(const HiddenSpace& space, const Instance& instance) {
   const Bank& bank = space.banks[instance.bank];
-  const float cell = std::max(instance.camera_from_part.translation.z() / space.camera.fx, 1e-4F);
+  const float depth = bounding_sphere(instance, space.banks).centre.z();
+  const float cell = std::max(depth / space.camera.fx, 1e-4F);
   // Enough to leave no gap between them where there are as many, and no more.
   const float enough = std::ceil(bounding_area(*bank.part) / (cell * cell));
   Cover cover;

@@ -52,10 +52,10 @@ GraspRejection main_reason(const PickResult& result) {
   return static_cast<GraspRejection>(most);
 }
 
-/// The depth at which cells lie as far apart as asked for: that of the farthest instance.
-float reference_depth(std::span<const Instance> instances) {
+/// The depth at which cells lie as far apart as asked for: that of the farthest instance, wherever its origin is.
+float reference_depth(std::span<const BoundingSphere> spheres) {
   float depth = 0.0F;
-  for (const Instance& instance : instances) depth = std::max(depth, instance.camera_from_part.translation.z());
+  for (const BoundingSphere& sphere : spheres) depth = std::max(depth, sphere.centre.z());
   return depth;
 }
 
@@ -103,7 +103,11 @@ void begin_choice(const DepthFrame& frame, const Detections& detections, std::sp
   if (count == 0) return;
 
   const std::span<const Instance> instances = detections.instances.first(count);
-  begin_cloud_map(frame, parameters.collision.sample_spacing, reference_depth(instances), workspace.cloud);
+  // Those that the workspace cuts are in the way all the same.
+  for (const Instance& instance : instances)
+    static_cast<void>(workspace.spheres.push_back(bounding_sphere(instance, banks)));
+  begin_cloud_map(frame, parameters.collision.sample_spacing, reference_depth(workspace.spheres.span()),
+                  workspace.cloud);
   begin_hidden_space(workspace.cloud, detections.instances, banks, workspace.hidden);
   const Vector3 up = up_direction(parameters);
   BinParameters bin = parameters.bin;
@@ -112,9 +116,6 @@ void begin_choice(const DepthFrame& frame, const Detections& detections, std::sp
     choice.bin = fit_bin(workspace.cloud, bin, up, parameters.robot_from_camera, workspace.wall_points);
     bin.robot_from_bin = choice.bin.robot_from_bin;
   }
-  // Those that the workspace cuts are in the way all the same.
-  for (const Instance& instance : instances)
-    static_cast<void>(workspace.spheres.push_back(bounding_sphere(instance, banks)));
   const std::span<Explained> explained = workspace.explained.first(workspace.cloud.depth.size());
   std::fill(explained.begin(), explained.end(), Explained::unasked);
   const RigidTransform camera_from_robot = inverse(parameters.robot_from_camera);

@@ -44,6 +44,30 @@ TEST_F(Planner, SaysCollisionWhenEveryGraspIsBlocked) {
   EXPECT_EQ(result.reasons[0], GraspRejection::collision);
 }
 
+TEST_F(Planner, SeesTheSameObstaclesWhereverThePartsOriginIs) {
+  add_block(0.0F, 0.0F, 0.585F);
+  add_obstacle(0.030F, 0.0F, 0.585F);
+  const PickResult about_origin = choose();
+  ASSERT_TRUE(about_origin.found);
+  ASSERT_EQ(about_origin.best.grasp, 2U);
+  const Pick expected = about_origin.best;
+  // As in the coordinates of a plant: here the origin stands behind the camera.
+  const Vector3 aside(0.3F, 0.0F, -1.0F);
+  part.part.centre = aside;
+  part.part.box_min += aside;
+  part.part.box_max += aside;
+  for (SurfacePoint& point : part.surface) point.position += aside;
+  for (PartGrasp& grasp : part.grasps) grasp.part_from_tool.translation += aside;
+  instances[0].camera_from_part = instances[0].camera_from_part * shift(-aside.x(), -aside.y(), -aside.z());
+  ASSERT_LT(instances[0].camera_from_part.translation.z(), 0.0F);
+  const PickResult result = choose_again();
+  ASSERT_TRUE(result.found);
+  EXPECT_EQ(result.best.grasp, expected.grasp);
+  EXPECT_EQ(result.checks, about_origin.checks);
+  EXPECT_NEAR(result.best.clearance, expected.clearance, 1e-5F);
+  EXPECT_TRUE(result.best.robot_from_tool.translation.isApprox(expected.robot_from_tool.translation, 1e-4F));
+}
+
 TEST_F(Planner, PickIsTheSameWhicheverFrameTheRobotHas) {
   add_block(0.02F, 0.01F, 0.585F, 0.3F);
   add_block(-0.06F, 0.02F, 0.560F, 1.0F);
