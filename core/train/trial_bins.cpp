@@ -17,6 +17,10 @@ namespace {
 constexpr std::array strains{SensorStrain::medium, SensorStrain::hard, SensorStrain::clean, SensorStrain::hard,
                              SensorStrain::medium};
 
+/// Diameters from the sensor to the bin's floor, at least: a pile is up to one high, and a sensor that looks at it from
+/// nearer than twice that sees only some of it.
+constexpr float least_distance = 3.0F;
+
 constexpr float least_visibility = 0.1F;  ///< Below it an instance is not missed, but right when it is found.
 
 /// The memory of detections with one bank in frames up to a size.
@@ -77,12 +81,14 @@ TrialOutcome judged(const Detections& detections, const SimulatedScene& bin, con
 
 std::vector<SimulatedScene> simulated_bins(std::span<const SimulatedPart> parts, std::size_t first, std::size_t count,
                                            const TrialRecipe& recipe) {
+  float largest = 0.0F;
+  for (const SimulatedPart& part : parts) largest = std::max(largest, part.shape.diameter);
   std::vector<SimulatedScene> bins(count);
   parallel_for(count, recipe.threads, 1, [&](std::size_t i) {
     SceneRecipe scene;
     scene.instances = recipe.instances;
     scene.strain = strains[(first + i) % strains.size()];
-    scene.sensor_distance = recipe.sensor_distance;
+    scene.sensor_distance = std::max(recipe.sensor_distance, least_distance * largest);
     scene.maximum_width = recipe.maximum_width;
     scene.maximum_height = recipe.maximum_height;
     scene.seed = first + i + 1;

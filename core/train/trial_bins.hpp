@@ -16,9 +16,9 @@ namespace graspd {
 
 /// How the simulated bins are made on which banks of a part are tried.
 struct TrialRecipe {
-  std::size_t instances = 12;  ///< In one bin.
-  float sensor_distance = 0.75F;
-  int maximum_width = 800;  ///< Pixels of a frame.
+  std::size_t instances = 12;     ///< In one bin.
+  float sensor_distance = 0.75F;  ///< Metres to the bin's floor; large parts are looked at from farther away.
+  int maximum_width = 800;        ///< Pixels of a frame.
   int maximum_height = 600;
   int threads = 1;  ///< The result does not depend on them.
 };

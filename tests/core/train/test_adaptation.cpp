@@ -70,6 +70,27 @@ TEST(TrialBins, ABinDependsOnItsNumberAlone) {
   EXPECT_EQ(all[0].instances.size(), recipe.instances);
 }
 
+TEST(TrialBins, ShowLargePartsFromFarEnough) {
+  const std::vector<std::byte> file = [] {
+    PartDescription large = bracket();
+    for (Vector3& vertex : large.mesh.vertices) vertex *= 20.0F;
+    BankReport report;
+    return build_bank(large, quick(), report, [](float) {}).value();
+  }();
+  const TrialPart part = trial_part(read_bank(file, "bracket").value()).value();
+  ASSERT_GT(part.evaluation.diameter, 1.9F);
+  TrialRecipe recipe = small().bins;
+  recipe.instances = 10;
+  std::size_t shown = 0;
+  for (const SimulatedScene& bin : trial_bins(part, 0, 2, recipe)) {
+    for (const SimulatedInstance& instance : bin.instances) {
+      EXPECT_GT((instance.camera_from_part * part.evaluation.middle).z(), 0.5F * part.evaluation.diameter);
+      shown += instance.visibility > 0.3F ? 1 : 0;
+    }
+  }
+  EXPECT_GE(shown, 8U) << "of twenty";
+}
+
 TEST(Adaptation, TakesTheSamplingThatFindsThePartWhateverTheThreads) {
   std::vector<float> shares;
   BankBuildParameters chosen = quick();
