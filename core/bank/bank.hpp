@@ -43,7 +43,7 @@ struct BankPart {
   std::array<char, 64> name{};       ///< Zero-terminated.
   std::uint32_t part_id = 0;         ///< The number the PLC knows, or the BOP object id.
   float diameter = 0;                ///< Largest distance between two surface points.
-  Vector3 centre = Vector3::Zero();  ///< Middle of the bounding box.
+  Vector3 centre = Vector3::Zero();  ///< Stands for its place: the middle of the box, but where symmetries leave it.
   Vector3 box_min = Vector3::Zero();
   Vector3 box_max = Vector3::Zero();
   float sampling = 0;  ///< Voxel edge of the view points: scene sampling follows it.

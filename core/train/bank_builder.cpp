@@ -81,6 +81,21 @@ float sampling_of(const BankBuildParameters& parameters, const PartMesh& mesh) {
   return std::clamp(edge / mesh.diameter, least_sampling, most_sampling);
 }
 
+/// The middle of the bounding box, moved to where no symmetry moves it: of a part with three alike sides, the middle of
+/// the box is not that of the sides. Symmetries that would lead out of the part do not fit it, and are remarked on.
+Vector3 centre_of(const PartMesh& mesh, const SymmetryGroup& symmetry) {
+  const Vector3 middle = 0.5F * (mesh.box_min + mesh.box_max);
+  Vector3 centre = Vector3::Zero();
+  for (const RigidTransform& member : symmetry.discrete) {
+    centre += member * middle / static_cast<float>(symmetry.discrete.size());
+  }
+  if (symmetry.continuous) {
+    const Vector3& axis = symmetry.axis.direction;
+    centre = symmetry.axis.point + axis * axis.dot(centre - symmetry.axis.point);
+  }
+  return (centre - middle).norm() < 0.5F * mesh.diameter ? centre : middle;
+}
+
 void describe_part(const PartDescription& part, const PartMesh& mesh, const BankBuildParameters& parameters,
                    BankStorage& storage) {
   BankPart& out = storage.part;
@@ -90,7 +105,7 @@ void describe_part(const PartDescription& part, const PartMesh& mesh, const Bank
   out.diameter = mesh.diameter;
   out.box_min = mesh.box_min;
   out.box_max = mesh.box_max;
-  out.centre = 0.5F * (mesh.box_min + mesh.box_max);
+  out.centre = centre_of(mesh, storage.symmetry);
   out.sampling = sampling_of(parameters, mesh) * mesh.diameter;
   out.detail = parameters.detail * out.sampling;
   out.thresholds = part.thresholds;

@@ -135,6 +135,39 @@ TEST(BankBuilder, TwinsAreLookedForWhenNotKnown) {
   EXPECT_THAT(report.remarks, testing::Contains(testing::HasSubstr("most of all turned by 180 degrees about")));
 }
 
+TEST(BankBuilder, SymmetriesLeaveTheCentreWhereItIs) {
+  // The middle of the box about three alike sides is not their middle.
+  for (const int sides : {3, 5}) {
+    PartDescription part = described(shapes::prism(sides, 0.03F, 0.012F));
+    part.symmetry_discrete = {
+        turn_about({Vector3::UnitZ(), Vector3::Zero()}, 2.0F * std::numbers::pi_v<float> / static_cast<float>(sides))};
+    BankReport report;
+    const auto file = built(part, report);
+    const Bank bank = read_bank(file, "prism").value();
+    ASSERT_EQ(bank.symmetry_discrete.size(), static_cast<std::size_t>(sides));
+    EXPECT_LT(bank.part->centre.norm(), 1e-6F);
+    EXPECT_GT(bank.part->box_max.x(), -bank.part->box_min.x() + 0.004F);
+  }
+  // Likewise a cone whose axis runs between the axes of coordinates.
+  const SymmetryAxis axis{Vector3(1, 2, 2) / 3.0F, Vector3(0.1F, 0.0F, -0.05F)};
+  Mesh cone = shapes::cylinder(0.02F, 0.05F);
+  for (Vector3& vertex : cone.vertices) {
+    if (vertex.z() > 0.0F) vertex.head<2>() *= 0.2F;
+    vertex = axis.point + Eigen::Quaternionf::FromTwoVectors(Vector3::UnitZ(), axis.direction) * vertex;
+  }
+  PartDescription part = described(cone);
+  part.symmetry_continuous = true;
+  part.symmetry_axis = axis;
+  BankReport report;
+  const auto file = built(part, report);
+  const Bank bank = read_bank(file, "cone").value();
+  const Vector3 arm = bank.part->centre - axis.point;
+  EXPECT_LT(axis.direction.cross(arm).norm(), 1e-6F);
+  EXPECT_LT(arm.norm(), 0.02F);
+  const Vector3 middle = 0.5F * (bank.part->box_min + bank.part->box_max);
+  EXPECT_GT(axis.direction.cross(middle - axis.point).norm(), 0.001F);
+}
+
 TEST(BankBuilder, ADoubtfulSymmetryIsRemarkedOn) {
   PartDescription part = described(shapes::box(0.06F, 0.04F, 0.02F));
   part.symmetry_discrete = {turn_about({Vector3::UnitZ(), Vector3::Zero()}, std::numbers::pi_v<float> / 2)};
