@@ -22,9 +22,9 @@ RigidTransform look_from(const Vector3& direction, const ViewingConditions& cond
   return camera_from_part;
 }
 
-/// A camera whose image just holds the part's bounding sphere.
-Camera framing_camera(const ViewingConditions& conditions) {
-  const float sine = 0.52F * conditions.diameter / conditions.distance;
+/// A camera whose image just holds a sphere about what it looks at.
+Camera framing_camera(float radius, float distance) {
+  const float sine = 1.04F * radius / distance;
   const float half_width = sine / std::sqrt(1.0F - sine * sine);
   const float focal = 0.5F * static_cast<float>(image_size) / half_width;
   const float middle = 0.5F * static_cast<float>(image_size - 1);
@@ -42,7 +42,9 @@ Visibility find_visibility(const MeshView& mesh, std::span<const OrientedPoint> 
   // A sensor inside the part sees nothing of it: large parts are looked at from farther away.
   ViewingConditions conditions = given;
   conditions.distance = std::max(given.distance, 1.5F * given.diameter);
-  const Camera camera = framing_camera(conditions);
+  float radius = 0.5F * conditions.diameter;
+  for (const Vector3& vertex : mesh.vertices) radius = std::max(radius, (vertex - conditions.centre).norm());
+  const Camera camera = framing_camera(radius, conditions.distance);
   const float pixel_angle = 1.0F / camera.fx;
   const float cutoff = std::cos(conditions.maximum_incidence);
   const std::size_t words = visibility_words(points.size());

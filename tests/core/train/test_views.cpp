@@ -57,6 +57,28 @@ TEST(ViewSphere, DirectionsAreUnitAndEven) {
   EXPECT_LT(sum.norm(), 0.5F);
 }
 
+TEST(SelfVisibility, PlatesHideEachOtherHoweverFarFromTheMiddle) {
+  // Pairs of plates at the corners of a triangle: further from the middle of the box than half the diameter.
+  Mesh mesh;
+  std::vector<OrientedPoint> under;
+  for (const Vector3& place : {Vector3(0.06F, 0, 0), Vector3(-0.03F, 0.052F, 0), Vector3(-0.03F, -0.052F, 0)}) {
+    for (const float z : {0.0F, 0.004F}) {
+      const RigidTransform there{Matrix3::Identity(), place + Vector3(0, 0, z)};
+      mesh = shapes::joined(mesh, shapes::moved(shapes::box(0.010F, 0.010F, 0.001F), there));
+    }
+    under.push_back({place + Vector3(0, 0, 0.0005F), Vector3::UnitZ()});
+  }
+  const PartMesh part = prepare_mesh(mesh).value();
+  const Vector3 middle = 0.5F * (part.box_min + part.box_max);
+  const std::vector<Vector3> above{Vector3::UnitZ()};
+  const Visibility visibility =
+      find_visibility(part.mesh.view(), under, above, {middle, part.diameter, 0.75F, cut_off});
+  for (std::size_t i = 0; i < under.size(); ++i) {
+    EXPECT_TRUE(visibility.facing.at(0, i));
+    EXPECT_FALSE(visibility.seen.at(0, i)) << under[i].position.transpose();
+  }
+}
+
 TEST(SelfVisibility, ABoxShowsTheThreeFacesOfACorner) {
   const Studio studio(shapes::box(0.06F, 0.05F, 0.04F), 0.088F, {Vector3(1, 1, 1).normalized(), Vector3::UnitZ()});
   for (std::size_t i = 0; i < studio.samples().size(); ++i) {
