@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "tests/core/detect/bracket_scene.hpp"
 #include "tests/core/train/shapes.hpp"
@@ -15,8 +16,16 @@ TEST(JudgedShare, IsLeftToEachPartWhateverTheTwinsOfThoseBeforeItTake) {
   part.part_id = 1;
   part.mesh = shapes::box(0.06F, 0.036F, 0.02F);
   part.symmetry_given = true;
+  part.twins.emplace();
+  for (const Vector3& axis : {Vector3(Vector3::UnitX()), Vector3(Vector3::UnitY()), Vector3(Vector3::UnitZ())})
+    part.twins->push_back(turn_about({axis, Vector3::Zero()}, std::numbers::pi_v<float>));
+  BankBuildParameters quick;
+  quick.sampling = 0.08F;
+  quick.candidate_views = 42;
+  quick.surface_points = 400;
+  quick.visibility_directions = 162;
   BankReport report;
-  const std::vector<std::byte> file = build_bank(part, {}, report, [](float) {}).value();
+  const std::vector<std::byte> file = build_bank(part, quick, report, [](float) {}).value();
   const Bank bank = read_bank(file, "box").value();
   ASSERT_EQ(bank.twins.size(), 3U);
 
@@ -36,7 +45,9 @@ TEST(JudgedShare, IsLeftToEachPartWhateverTheTwinsOfThoseBeforeItTake) {
   DetectRequest request;
   request.banks = banks;
   Detections detections;
-  ASSERT_TRUE(detect({camera, depth, 0, 0}, request, {}, workspace, detections).ok());
+  DetectParameters parameters;
+  parameters.cluster.plausible = 100;
+  ASSERT_TRUE(detect({camera, depth, 0, 0}, request, parameters, workspace, detections).ok());
   EXPECT_NE(detections.flags & flag_hypotheses_cut, 0U);
   for (std::uint32_t b = 0; b < banks.size(); ++b) {
     const auto of_bank = [&](const Instance& instance) { return instance.bank == b; };

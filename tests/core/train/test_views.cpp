@@ -70,12 +70,19 @@ TEST(SelfVisibility, PlatesHideEachOtherHoweverFarFromTheMiddle) {
   }
   const PartMesh part = prepare_mesh(mesh).value();
   const Vector3 middle = 0.5F * (part.box_min + part.box_max);
-  const std::vector<Vector3> above{Vector3::UnitZ()};
+  // From nearly above, with the image turned in every way.
+  std::vector<Vector3> above;
+  for (int i = 0; i < 36; ++i) {
+    const float turn = 0.1745F * static_cast<float>(i);
+    above.push_back(Vector3(0.14F * std::cos(turn), 0.14F * std::sin(turn), 1.0F).normalized());
+  }
   const Visibility visibility =
       find_visibility(part.mesh.view(), under, above, {middle, part.diameter, 0.75F, cut_off});
-  for (std::size_t i = 0; i < under.size(); ++i) {
-    EXPECT_TRUE(visibility.facing.at(0, i));
-    EXPECT_FALSE(visibility.seen.at(0, i)) << under[i].position.transpose();
+  for (std::size_t d = 0; d < above.size(); ++d) {
+    for (std::size_t i = 0; i < under.size(); ++i) {
+      EXPECT_TRUE(visibility.facing.at(d, i));
+      EXPECT_FALSE(visibility.seen.at(d, i)) << under[i].position.transpose() << " from " << above[d].transpose();
+    }
   }
 }
 
