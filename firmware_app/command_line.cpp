@@ -3,11 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "firmware_app/commands.hpp"
-#include "firmware_app/settings_table.hpp"
+#include "firmware_app/nearest_word.hpp"
 
 #ifndef GRASPD_VERSION
 #define GRASPD_VERSION "development"
@@ -37,16 +38,22 @@ constexpr const char* exit_codes =
     "   6 output cannot be written     13 deadline passed";
 
 /// What to say when the words do not make a command: the subcommand that was probably meant.
-std::string advice(const CLI::App& app, const CLI::ParseError& problem, int argument_count,
-                   const char* const* arguments) {
-  if (argument_count > 1 && arguments[1][0] != '-' && app.get_subcommands().empty()) {
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
-    const std::string near = nearest_word(arguments[1], names);
-    return std::string("there is no subcommand ") + arguments[1] +
-           (near.empty() ? std::string("; see graspd --help") : "; did you mean " + near + "?");
+std::string advice(const CLI::App& app, const CLI::ParseError& problem, std::span<const char* const> words) {
+  const CLI::App* command = &app;
+  std::string understood;
+  std::size_t next = 1;
+  for (; !command->get_subcommands().empty(); ++next) {
+    command = command->get_subcommands().front();
+    understood += command->get_name() + " ";
   }
-  return std::string(problem.what()) + "; see graspd --help";
+  std::vector<std::string> names;
+  for (const CLI::App* known : command->get_subcommands(nullptr)) names.push_back(known->get_name());
+  if (names.empty() || next >= words.size() || words[next][0] == '-') {
+    return std::string(problem.what()) + "; see graspd " + understood + "--help";
+  }
+  const std::string near = nearest_word(words[next], names);
+  return "there is no subcommand " + understood + words[next] +
+         (near.empty() ? "; see graspd " + understood + "--help" : "; did you mean " + understood + near + "?");
 }
 
 int report(const Status& status) {
@@ -88,9 +95,13 @@ int run_command_line(int argument_count, const char* const* arguments) {
     std::puts(app.version().c_str());
     return 0;
   } catch (const CLI::ParseError& problem) {
-    return report(Status(StatusCode::usage, advice(app, problem, argument_count, arguments)));
+    return report(
+        Status(StatusCode::usage, advice(app, problem, {arguments, static_cast<std::size_t>(argument_count)})));
   } catch (const std::exception& problem) {
     return report(Status::format(StatusCode::internal, "unexpected: %s", problem.what()));
+  }
+  if (outcome.ok() && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)) {
+    outcome = Status(StatusCode::cannot_write, "standard output took only a part: is the disk full?");
   }
   return report(outcome);
 }

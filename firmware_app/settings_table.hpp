@@ -107,7 +107,4 @@ class SettingsTable {
   std::vector<std::string> missing_;
 };
 
-/// The one of `known` that `word` is most likely a slip of, or an empty string when none is near.
-[[nodiscard]] std::string nearest_word(std::string_view word, std::span<const std::string> known);
-
 }  // namespace graspd

@@ -100,21 +100,6 @@ fs::path find_depth_file(const fs::path& stem) {
   return {};
 }
 
-/// Reads one depth image in metres into `depth`, and its size into `camera` when that has none yet.
-Status read_depth(const fs::path& path, float depth_scale, Camera& camera, std::vector<float>& depth) {
-  const Result<DepthImage> image = read_depth_image(path);
-  if (!image.ok()) return image.status();
-  if (camera.width == 0) {
-    camera.width = image.value().width;
-    camera.height = image.value().height;
-  }
-  const Status size = check_size(image.value(), camera, path);
-  if (!size.ok()) return size;
-  depth.resize(camera.pixel_count());
-  scale_depth(image.value(), depth_scale, depth);
-  return {};
-}
-
 }  // namespace
 
 std::string bop_number(int number) {
@@ -273,7 +258,7 @@ Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id) {
   LoadedFrame frame;
   frame.camera = image->camera;
   frame.name = path.string();
-  const Status read = read_depth(path, image->depth_scale, frame.camera, frame.depth);
+  const Status read = load_depth(path, image->depth_scale, frame.camera, frame.depth);
   if (!read.ok()) return read;
   if (std::all_of(frame.depth.begin(), frame.depth.end(), [](float z) { return z == 0.0F; })) {
     return Status::format(StatusCode::bad_frame, "%s: no pixel is measured: was the camera covered or its light off?",
@@ -282,7 +267,7 @@ Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id) {
   fs::path empty_path = find_depth_file(scene.folder / "empty" / bop_number(im_id));
   if (empty_path.empty()) empty_path = find_depth_file(scene.folder / "empty" / bop_number(0));
   if (!empty_path.empty()) {
-    const Status read_empty = read_depth(empty_path, image->depth_scale, frame.camera, frame.empty_depth);
+    const Status read_empty = load_depth(empty_path, image->depth_scale, frame.camera, frame.empty_depth);
     if (!read_empty.ok()) return read_empty;
   }
   return frame;

@@ -41,6 +41,20 @@ Status check_size(const DepthImage& image, const Camera& camera, const std::file
                         path.c_str(), image.width, image.height, camera.width, camera.height);
 }
 
+Status load_depth(const std::filesystem::path& path, float depth_scale, Camera& camera, std::vector<float>& depth) {
+  const Result<DepthImage> image = read_depth_image(path);
+  if (!image.ok()) return image.status();
+  if (camera.width == 0) {
+    camera.width = image.value().width;
+    camera.height = image.value().height;
+  }
+  const Status size = check_size(image.value(), camera, path);
+  if (!size.ok()) return size;
+  depth.resize(camera.pixel_count());
+  scale_depth(image.value(), depth_scale, depth);
+  return {};
+}
+
 Status write_depth_png(const std::filesystem::path& path, int width, int height,
                        std::span<const std::uint16_t> values) {
   const Result<std::vector<std::byte>> bytes = encode_png(width, height, PngPixels::grey16, std::as_bytes(values));

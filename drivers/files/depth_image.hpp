@@ -29,6 +29,11 @@ void scale_depth(const DepthImage& image, float depth_scale, std::span<float> de
 /// Fails with bad_frame, naming both sizes, when the image is not as large as the camera's.
 [[nodiscard]] Status check_size(const DepthImage& image, const Camera& camera, const std::filesystem::path& path);
 
+/// Reads a depth image in metres into `depth`, and its size into `camera` when that has none yet. Fails as
+/// read_depth_image and check_size do.
+[[nodiscard]] Status load_depth(const std::filesystem::path& path, float depth_scale, Camera& camera,
+                                std::vector<float>& depth);
+
 /// Writes a 16-bit grey PNG of width * height values, row by row. Fails with cannot_write.
 [[nodiscard]] Status write_depth_png(const std::filesystem::path& path, int width, int height,
                                      std::span<const std::uint16_t> values);

@@ -67,21 +67,6 @@ fs::path find_camera_file(const fs::path& path) {
   return {};
 }
 
-/// Reads a depth image in metres; takes the size of `camera` from it when that has none.
-Status load_depth(const fs::path& path, float depth_scale, Camera& camera, std::vector<float>& depth) {
-  const Result<DepthImage> image = read_depth_image(path);
-  if (!image.ok()) return image.status();
-  if (camera.width == 0) {
-    camera.width = image.value().width;
-    camera.height = image.value().height;
-  }
-  const Status size = check_size(image.value(), camera, path);
-  if (!size.ok()) return size;
-  depth.resize(camera.pixel_count());
-  scale_depth(image.value(), depth_scale, depth);
-  return {};
-}
-
 Result<LoadedFrame> load_image(const fs::path& path, const FrameFileOptions& options) {
   const fs::path camera_file = options.camera_file.empty() ? find_camera_file(path) : options.camera_file;
   if (camera_file.empty()) {
