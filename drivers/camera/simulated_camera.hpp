@@ -64,8 +64,6 @@ class SimulatedCamera {
   [[nodiscard]] std::uint64_t frames_sent() const { return frames_sent_; }
   [[nodiscard]] std::uint64_t packets_lost() const { return packets_lost_; }
   [[nodiscard]] std::uint64_t packets_resent() const { return packets_resent_; }
-  /// A client has control.
-  [[nodiscard]] bool controlled() const { return controlled_; }
 
  private:
   struct Sockets {
@@ -131,7 +129,6 @@ class SimulatedCamera {
   std::atomic<std::uint64_t> frames_sent_{0};
   std::atomic<std::uint64_t> packets_lost_{0};
   std::atomic<std::uint64_t> packets_resent_{0};
-  std::atomic<bool> controlled_{false};
   std::thread thread_;
 };
 

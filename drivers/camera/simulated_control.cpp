@@ -135,7 +135,6 @@ bool SimulatedCamera::may_write(const sockaddr_in& client) const { return contro
 
 void SimulatedCamera::release_control() {
   controller_.reset();
-  controlled_ = false;
   put(reg::control_privilege, 0);
   put(reg::acquisition, 0);
   put(reg::message_port, 0);
@@ -149,7 +148,6 @@ std::uint16_t SimulatedCamera::write_register(const sockaddr_in& client, std::ui
     release_control();
     if (value == 0) return success;
     controller_ = client;
-    controlled_ = true;
     put(address, value);
     return success;
   }

@@ -58,16 +58,6 @@ std::string_view pose_convention_name(PoseConvention convention) {
   return names[static_cast<std::size_t>(convention) - 1];
 }
 
-bool parse_pose_convention(std::string_view name, PoseConvention& convention) {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] == name) {
-      convention = static_cast<PoseConvention>(i + 1);
-      return true;
-    }
-  }
-  return false;
-}
-
 std::array<double, 4> orientation_values(const Matrix3& rotation, PoseConvention convention) {
   const Eigen::Matrix3d r = rotation.cast<double>();
   switch (convention) {

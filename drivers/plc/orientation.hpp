@@ -21,8 +21,6 @@ inline constexpr std::uint16_t pose_convention_count = 6;
 
 /// The enumerator's name.
 [[nodiscard]] std::string_view pose_convention_name(PoseConvention convention);
-/// False when `name` is none of the names; then `convention` is left alone.
-[[nodiscard]] bool parse_pose_convention(std::string_view name, PoseConvention& convention);
 
 /// The numbers that describe `rotation`: three angles (radians) or the rotation vector (radians) and a
 /// zero, or the quaternion. At gimbal lock the angle about z (zyz: the first of the two) is zero and the

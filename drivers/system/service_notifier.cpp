@@ -12,8 +12,6 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "drivers/system/clock.hpp"
-
 namespace graspd {
 namespace {
 
@@ -54,13 +52,6 @@ ServiceNotifier::~ServiceNotifier() {
 }
 
 void ServiceNotifier::ready() { send("READY=1"); }
-
-void ServiceNotifier::reloading() {
-  std::array<char, 80> message{};
-  std::snprintf(message.data(), message.size(), "RELOADING=1\nMONOTONIC_USEC=%lld",
-                static_cast<long long>(monotonic_ns() / 1000));
-  send(message.data());
-}
 
 void ServiceNotifier::stopping() { send("STOPPING=1"); }
 

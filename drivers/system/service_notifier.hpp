@@ -18,8 +18,6 @@ class ServiceNotifier {
   [[nodiscard]] bool is_connected() const { return socket_ >= 0; }
 
   void ready();
-  /// Must be followed by ready() when the reload is over.
-  void reloading();
   void stopping();
   void watchdog();
   /// One line for `systemctl status`; printf-style.

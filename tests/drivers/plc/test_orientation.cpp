@@ -139,17 +139,5 @@ TEST(OrientationGimbalLock, PutsTheWholeTurnIntoOneAngle) {
   EXPECT_NEAR(orientation_values(zyz, PoseConvention::zyz_euler)[2], 0.8, 1e-6);
 }
 
-TEST(OrientationNames, AreKnown) {
-  for (std::uint16_t i = 1; i <= pose_convention_count; ++i) {
-    const auto convention = static_cast<PoseConvention>(i);
-    PoseConvention parsed = PoseConvention::quaternion;
-    EXPECT_TRUE(parse_pose_convention(pose_convention_name(convention), parsed));
-    EXPECT_EQ(parsed, convention);
-  }
-  PoseConvention parsed = PoseConvention::zyz_euler;
-  EXPECT_FALSE(parse_pose_convention("rpy", parsed));
-  EXPECT_EQ(parsed, PoseConvention::zyz_euler);
-}
-
 }  // namespace
 }  // namespace graspd
