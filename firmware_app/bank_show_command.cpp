@@ -79,7 +79,7 @@ Status show(const ShowOptions& options) {
   if (!loaded.ok()) return loaded.status();
   const Bank& bank = loaded.value().banks.front();
   print_part(bank);
-  print_sections(bank, loaded.value().mapped_bytes());
+  print_sections(bank, loaded.value().bytes());
   print_views(bank);
   if (options.picture.empty()) return {};
   return write_picture(options.picture, draw_contact_sheet(bank));
@@ -93,8 +93,7 @@ void add_bank_show_command(CLI::App& bank_command, Status& outcome) {
   command->add_option("BANK", options->bank, "Bank file")->required();
   command->add_option("--picture", options->picture, "Write the views side by side into this PNG");
   command->footer(
-      "Prints the part, the memory that each section takes (the file is mapped, not copied)\n"
-      "and every view.\n"
+      "Prints the part, the memory that each section takes, and every view.\n"
       "\n"
       "Example:\n"
       "  graspd bank show bushing.bank --picture views.png");

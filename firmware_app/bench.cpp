@@ -16,7 +16,7 @@ MemoryPlan memory_of(const BenchBed& bed, std::size_t baseline) {
   Arena arena = Arena::measuring();
   static_cast<void>(carve_detect_workspace(arena, plan.capacity.detect));
   add_arena_rows(arena, plan);
-  plan.rows.push_back({"banks (mapped, shared)", input.banks.mapped_bytes()});
+  plan.rows.push_back({"banks", input.banks.bytes()});
   std::size_t pixels = 0;
   for (const LoadedFrame& frame : input.frames) pixels += frame.depth.size() + frame.empty_depth.size();
   plan.rows.push_back({"frames", pixels * sizeof(float)});

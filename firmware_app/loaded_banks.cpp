@@ -4,16 +4,16 @@
 
 namespace graspd {
 
-std::size_t LoadedBanks::mapped_bytes() const {
+std::size_t LoadedBanks::bytes() const {
   std::size_t total = 0;
-  for (const MappedFile& file : files) total += file.bytes().size();
+  for (const ResidentFile& file : files) total += file.bytes().size();
   return total;
 }
 
 Result<LoadedBanks> load_banks(std::span<const std::string> paths) {
   LoadedBanks loaded;
   for (const std::string& path : paths) {
-    Result<MappedFile> file = MappedFile::open(path);
+    Result<ResidentFile> file = ResidentFile::open(path);
     if (!file.ok()) return file.status();
     const Result<Bank> bank = read_bank(file.value().bytes(), path);
     if (!bank.ok()) return bank.status();

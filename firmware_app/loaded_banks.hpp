@@ -7,20 +7,20 @@
 
 #include "core/bank/bank.hpp"
 #include "core/status.hpp"
-#include "drivers/files/mapped_file.hpp"
+#include "drivers/files/resident_file.hpp"
 
 namespace graspd {
 
-/// Banks mapped from their files, in the order in which they were named.
+/// Banks read from their files, in the order in which they were named.
 struct LoadedBanks {
   std::vector<std::string> paths;
-  std::vector<MappedFile> files;
+  std::vector<ResidentFile> files;
   std::vector<Bank> banks;  ///< Spans into `files`.
 
-  [[nodiscard]] std::size_t mapped_bytes() const;
+  [[nodiscard]] std::size_t bytes() const;
 };
 
-/// Maps and checks every bank. Fails with bad_bank and the first file that is wrong, and when two banks
+/// Reads and checks every bank. Fails with bad_bank and the first file that is wrong, and when two banks
 /// carry the same part number: the PLC could not tell them apart.
 [[nodiscard]] Result<LoadedBanks> load_banks(std::span<const std::string> paths);
 

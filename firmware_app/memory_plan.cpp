@@ -72,7 +72,7 @@ MemoryPlan plan_memory(const Configuration& configuration, const LoadedBanks& ba
   Arena arena = Arena::measuring();
   static_cast<void>(carve_working_memory(arena, plan.capacity));
   add_arena_rows(arena, plan);
-  plan.rows.push_back({"banks (mapped, shared)", banks.mapped_bytes()});
+  plan.rows.push_back({"banks", banks.bytes()});
   if (recorded_bytes > 0) plan.rows.push_back({"camera or recorded frames", recorded_bytes});
   if (plan.capacity.picture) {
     plan.rows.push_back({"drawing the picture", plan.capacity.frame_pixels * picture_bytes_per_pixel});

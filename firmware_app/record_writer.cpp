@@ -17,11 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string digest_of_file(const std::string& path) {
-  const Result<std::string> content = read_file(path);
-  return content.ok() ? content_digest(std::as_bytes(std::span(content.value()))) : "unreadable";
-}
-
 Json pose_as_json(const RigidTransform& pose) {
   Json rotation = Json::array();
   for (int i = 0; i < 9; ++i) rotation.push_back(pose.rotation(i / 3, i % 3));
@@ -56,7 +51,7 @@ RecordWriter::RecordWriter(RecordFolder folder, RecordWhen when, const std::stri
   Result<std::string> configuration = read_file(configuration_file);
   if (configuration.ok()) configuration_ = std::move(configuration).value();
   for (std::size_t i = 0; i < banks.banks.size(); ++i) {
-    digests_.push_back({banks.banks[i].part->part_id, banks.paths[i], digest_of_file(banks.paths[i])});
+    digests_.push_back({banks.banks[i].part->part_id, banks.paths[i], content_digest(banks.files[i].bytes())});
   }
 }
 

@@ -12,8 +12,8 @@
 #include "core/train/part_mesh.hpp"
 #include "core/train/simulated_scene.hpp"
 #include "drivers/files/bop_writer.hpp"
-#include "drivers/files/mapped_file.hpp"
 #include "drivers/files/mesh_file.hpp"
+#include "drivers/files/resident_file.hpp"
 #include "firmware_app/part_file.hpp"
 
 namespace graspd {
@@ -44,7 +44,7 @@ Status add_mesh_file(const std::string& path, LengthUnit unit, int number, Piled
 }
 
 Status add_bank(const std::string& path, PiledParts& piled) {
-  const Result<MappedFile> file = MappedFile::open(path);
+  const Result<ResidentFile> file = ResidentFile::open(path);
   if (!file.ok()) return file.status();
   const Result<Bank> bank = read_bank(file.value().bytes(), path);
   if (!bank.ok()) return bank.status();

@@ -39,6 +39,17 @@ int write_all(int file, std::span<const std::byte> bytes) {
   return 0;
 }
 
+/// What a link stands for, whether it is there or not.
+fs::path followed(const fs::path& path) {
+  constexpr int longest_chain = 40;
+  std::error_code ignored;
+  fs::path target = path;
+  for (int i = 0; i < longest_chain && fs::is_symlink(target, ignored); ++i) {
+    target = target.parent_path() / fs::read_symlink(target, ignored);
+  }
+  return target;
+}
+
 /// Devices and pipes (/dev/stdout) cannot be renamed over: they are written to.
 Status write_to_device(const fs::path& path, std::span<const std::byte> bytes) {
   FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
@@ -67,7 +78,7 @@ Status write_file(const fs::path& path, std::span<const std::byte> bytes) {
   if (fs::exists(status) && !fs::is_regular_file(status)) return write_to_device(path, bytes);
 
   // A link keeps standing: what it points to is replaced.
-  const fs::path target = fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
+  const fs::path target = followed(path);
   if (target.filename().empty()) return cannot_write(path, ENOENT);
   fs::path temporary = target;
   temporary.replace_filename("." + target.filename().string() + "." + std::to_string(::getpid()) + ".tmp");
@@ -100,6 +111,15 @@ Status check_writable(const fs::path& path) {
   if (!fs::exists(folder, ignored)) return cannot_write(path, ENOENT);
   if (!fs::is_directory(folder, ignored)) return cannot_write(path, ENOTDIR);
   if (!fs::exists(status) && ::access(folder.c_str(), W_OK | X_OK) != 0) return cannot_write(path, errno);
+  return {};
+}
+
+Status check_folder(const fs::path& folder) {
+  std::error_code ignored;
+  fs::path place = fs::absolute(folder, ignored);
+  while (!fs::exists(place, ignored) && place.has_relative_path()) place = place.parent_path();
+  if (!fs::is_directory(place, ignored)) return cannot_write(folder, ENOTDIR);
+  if (::access(place.c_str(), W_OK | X_OK) != 0) return cannot_write(folder, errno);
   return {};
 }
 

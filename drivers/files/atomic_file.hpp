@@ -23,4 +23,7 @@ namespace graspd {
 /// Fails with cannot_write.
 [[nodiscard]] Status check_writable(const std::filesystem::path& path);
 
+/// Tells the same of files in `folder`, which may still have to be made.
+[[nodiscard]] Status check_folder(const std::filesystem::path& folder);
+
 }  // namespace graspd

@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "drivers/files/mapped_file.hpp"
+#include "drivers/files/resident_file.hpp"
 #include "tests/firmware_app/graspd_process.hpp"
 #include "tests/firmware_app/rendered_scene.hpp"
 #include "tests/firmware_app/temporary_folder.hpp"
@@ -102,7 +102,7 @@ TEST_F(BankLearn, AFullModelOfSoManyPointsIsOneView) {
   const GraspdOutcome compiled = run_graspd(
       folder_, {"bank", "compile", part_, "-o", bank, "--full-model", "--model-points", "400", "--no-adaptation"});
   ASSERT_EQ(compiled.exit_code, 0) << compiled.errors;
-  const MappedFile file = MappedFile::open(bank).value();
+  const ResidentFile file = ResidentFile::open(bank).value();
   const Bank full = read_bank(file.bytes(), bank).value();
   ASSERT_EQ(full.views.size(), 1U);
   EXPECT_NEAR(full.views[0].point_count, 400.0, 120.0);

@@ -88,6 +88,18 @@ TEST_F(Daemon, LeavesAPictureOfTheLatestAnswer) {
   EXPECT_EQ(process_->wait(), 0) << process_->errors();
 }
 
+TEST_F(Daemon, GoesOnWithItsBankWhenTheFileIsWrittenOver) {
+  start();
+  Result<ModbusClient> client = connect();
+  ASSERT_TRUE(client.ok()) << client.status().message();
+  std::filesystem::resize_file(folder_.path("bar.bank"), 0);
+  const Result<ResultBlock> block = client.value().request_pick({}, patience);
+  ASSERT_TRUE(block.ok()) << block.status().message() << process_->errors();
+  EXPECT_EQ(block.value().code, ResultCode::ok);
+  process_->terminate();
+  EXPECT_EQ(process_->wait(), 0) << process_->errors();
+}
+
 TEST_F(Daemon, KeepsTheFramesThatThePlcAsksFor) {
   start("[output]\nsnapshots = \"kept\"\nsnapshots_kept = 2\n");
   Result<ModbusClient> client = connect();

@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "drivers/files/atomic_file.hpp"
-#include "drivers/files/mapped_file.hpp"
+#include "drivers/files/resident_file.hpp"
 #include "drivers/files/whole_file.hpp"
 #include "tests/drivers/files/temporary_folder.hpp"
 
@@ -63,6 +63,21 @@ TEST(AtomicFile, LinkKeepsStanding) {
   ASSERT_TRUE(write_file(folder.path() / "link", std::string_view("new")).ok());
   EXPECT_TRUE(fs::is_symlink(folder.path() / "link"));
   EXPECT_EQ(read_file(target).value(), "new");
+
+  fs::create_symlink("deep/to_come", folder.path() / "early");
+  ASSERT_TRUE(write_file(folder.path() / "early", std::string_view("there")).ok());
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "early"));
+  EXPECT_EQ(read_file(folder.path() / "deep" / "to_come").value(), "there");
+}
+
+TEST(AtomicFile, FolderMayStillHaveToBeMade) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(check_folder(folder.path()).ok());
+  EXPECT_TRUE(check_folder(folder.path() / "to" / "come").ok());
+  EXPECT_EQ(files_in(folder.path()), 0U);
+  const fs::path file = folder.write("file", "content");
+  EXPECT_EQ(check_folder(file).code(), StatusCode::cannot_write);
+  EXPECT_THAT(std::string(check_folder(file / "below").message()), HasSubstr("Not a directory"));
 }
 
 TEST(AtomicFile, WritableIsKnownBeforeTheWork) {
@@ -86,20 +101,31 @@ TEST(WholeFile, MissingFileAndFolderAreRefused) {
   EXPECT_EQ(read_file(folder.path()).status().code(), StatusCode::bad_file);
 }
 
-TEST(MappedFile, HoldsTheBytesUntilItGoes) {
+TEST(ResidentFile, HoldsTheBytesUntilItGoes) {
   const TemporaryFolder folder;
-  Result<MappedFile> opened = MappedFile::open(folder.write("bank", "0123456789"));
+  Result<ResidentFile> opened = ResidentFile::open(folder.write("bank", "0123456789"));
   ASSERT_TRUE(opened.ok());
-  MappedFile moved = std::move(opened).value();
+  ResidentFile moved = std::move(opened).value();
   ASSERT_EQ(moved.bytes().size(), 10U);
   EXPECT_EQ(moved.bytes()[9], std::byte{'9'});
 }
 
-TEST(MappedFile, MissingEmptyAndFolderAreRefused) {
+TEST(ResidentFile, StaysAsItIsWhateverBecomesOfTheFile) {
   const TemporaryFolder folder;
-  EXPECT_EQ(MappedFile::open(folder.path() / "none").status().code(), StatusCode::bad_bank);
-  EXPECT_EQ(MappedFile::open(folder.path()).status().code(), StatusCode::bad_bank);
-  EXPECT_THAT(std::string(MappedFile::open(folder.write("void", "")).status().message()), HasSubstr("empty"));
+  const fs::path path = folder.write("bank", "0123456789");
+  const Result<ResidentFile> opened = ResidentFile::open(path);
+  ASSERT_TRUE(opened.ok());
+  std::ofstream(path, std::ios::in | std::ios::out) << "new";
+  EXPECT_EQ(opened.value().bytes()[0], std::byte{'0'});
+  fs::resize_file(path, 0);
+  EXPECT_EQ(opened.value().bytes()[9], std::byte{'9'});
+}
+
+TEST(ResidentFile, MissingEmptyAndFolderAreRefused) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(ResidentFile::open(folder.path() / "none").status().code(), StatusCode::bad_bank);
+  EXPECT_EQ(ResidentFile::open(folder.path()).status().code(), StatusCode::bad_bank);
+  EXPECT_THAT(std::string(ResidentFile::open(folder.write("void", "")).status().message()), HasSubstr("empty"));
 }
 
 }  // namespace
