@@ -58,6 +58,7 @@ void ModbusPoller::Loop::run() {
       if (done.ok()) done = writer_.write(plc_, input_registers_, wants_list_);
       if (done.ok()) {
         session_.on_delivered(monotonic_ns());
+        note_exchange(monotonic_ns());
       } else {
         lose(done, monotonic_ns());
       }
@@ -87,8 +88,17 @@ void ModbusPoller::Loop::connect(std::int64_t now_ns) {
     return;
   }
   told_unreachable_ = false;
+  has_exchanged_ = false;
   writer_.forget();
   look_again_ns_ = now_ns;
+}
+
+/// All was read and written: only now the connection is of use.
+void ModbusPoller::Loop::note_exchange(std::int64_t now_ns) {
+  if (has_exchanged_) return;
+  has_exchanged_ = true;
+  told_lost_ = false;
+  connect_pause_ns_ = first_pause_ns;
   if (may_log(now_ns)) {
     log_event(LogLevel::notice, "N129", "connected to the PLC address=%s port=%u", options_.address.c_str(),
               unsigned{options_.port});
@@ -102,7 +112,6 @@ Status ModbusPoller::Loop::look(std::int64_t now_ns) {
   const std::span<std::uint16_t> requests = std::span(holding_registers_).first(request_register::count);
   if (Status status = plc_.read_registers(options_.request_address, requests); !status.ok()) return status;
   coils_ = coils;
-  connect_pause_ns_ = first_pause_ns;
   if (!was_found_) {
     was_found_ = true;
     session_.on_found(now_ns);
@@ -122,6 +131,9 @@ void ModbusPoller::Loop::lose(const Status& reason, std::int64_t now_ns) {
   session_.set_clients(0);
   connect_again_ns_ = now_ns + connect_pause_ns_;
   connect_pause_ns_ = std::min(2 * connect_pause_ns_, longest_pause_ns);
+  // A PLC that takes connections and nothing else would fill the journal.
+  if (told_lost_ && !has_exchanged_) return;
+  told_lost_ = true;
   if (!may_log(now_ns)) return;
   if (reason.code() == StatusCode::bad_request) {
     log_event(LogLevel::error, "E131", "the PLC refuses, check its register areas reason=\"%s\"",

@@ -37,6 +37,7 @@ class ModbusPoller::Loop {
   void run();
   void wait(std::int64_t now_ns) const;
   void connect(std::int64_t now_ns);
+  void note_exchange(std::int64_t now_ns);
   [[nodiscard]] Status look(std::int64_t now_ns);
   void lose(const Status& reason, std::int64_t now_ns);
   [[nodiscard]] bool may_log(std::int64_t now_ns);
@@ -54,6 +55,8 @@ class ModbusPoller::Loop {
   bool was_found_ = false;  ///< What stands in the PLC has been seen once.
   bool wants_list_ = false;
   bool told_unreachable_ = false;
+  bool has_exchanged_ = false;  ///< Over this connection.
+  bool told_lost_ = false;      ///< Since the last exchange.
   std::int64_t connect_again_ns_ = 0;
   std::int64_t connect_pause_ns_;
   std::int64_t look_again_ns_ = 0;

@@ -1,18 +1,40 @@
 #include "drivers/system/log.hpp"
 
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
 
 namespace graspd {
 namespace {
 
 constexpr std::size_t line_capacity = 1024;
+
+/// Lines that nobody took, since the last that somebody did.
+std::atomic<std::uint32_t> lost_lines{0};
+
+[[nodiscard]] bool can_write_at_once() {
+  pollfd out{STDERR_FILENO, POLLOUT, 0};
+  return poll(&out, 1, 0) == 1 && (out.revents & POLLOUT) != 0;
+}
+
+/// False when it would have to wait.
+[[nodiscard]] bool write_at_once(std::span<const char> line) {
+  // Two threads at once could find room for one.
+  static std::mutex writing;
+  const std::lock_guard lock(writing);
+  if (!can_write_at_once()) return false;
+  // A log that cannot be written leaves nobody to tell.
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
+  return true;
+}
 
 [[nodiscard]] const char* level_name(LogLevel level) {
   switch (level) {
@@ -67,8 +89,11 @@ void log_event(LogLevel level, const char* code, const char* format, ...) {
   const std::size_t length = std::min(static_cast<std::size_t>(std::max(wanted, 0)), text.size() - 1);
   std::array<char, line_capacity + 64> line{};
   const std::size_t size = format_log_line(line, level, code, {text.data(), length}, for_journal);
-  // A log that cannot be written leaves nobody to tell.
-  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), size);
+  if (lost_lines.load() > 0 && can_write_at_once()) {
+    const std::uint32_t lost = lost_lines.exchange(0);
+    log_event(LogLevel::warning, "W007", "%u lines before this one are lost: who reads the log took none", lost);
+  }
+  if (!write_at_once(std::span(line).first(size))) lost_lines.fetch_add(1);
 }
 
 bool LogThrottle::allow(std::int64_t now_ns, std::uint32_t& suppressed) {

@@ -10,7 +10,8 @@ namespace graspd {
 /// How much an event matters; the numbers are those of syslog and of the journal.
 enum class LogLevel : std::uint8_t { error = 3, warning = 4, notice = 5, info = 6 };
 
-/// Writes one event as one line to standard error, in one write, without allocating:
+/// Writes one event as one line to standard error, in one write, without allocating and without waiting: while nobody
+/// takes what is written, lines are lost, and the next one that is taken says how many.
 /// `code=<code> <text> key=value ...`. `code` is a literal such as "E101" that configs/log-codes.md
 /// explains: its letter is the level (E error, W warning, N notice, I info). When the journal reads
 /// standard error, the line starts with the level as the journal wants it, otherwise with its name.

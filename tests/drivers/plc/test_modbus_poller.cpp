@@ -203,6 +203,26 @@ TEST_P(PollerFaults, LoseThePlcClearResultValidAndAreGotOver) {
 INSTANTIATE_TEST_SUITE_P(All, PollerFaults,
                          testing::Values(Mood::half_answers, Mood::silent, Mood::refuses, Mood::hangs_up));
 
+TEST(ModbusPoller, SaysOnceThatThePlcRefuses) {
+  PlcStandIn plc;
+  plc.set_mood(Mood::refuses);
+  testing::internal::CaptureStderr();
+  {
+    const auto poller = start_poller(options_for(plc));
+    // Time for four connections.
+    std::this_thread::sleep_for(900ms);
+    plc.set_mood(Mood::answers);
+    EXPECT_TRUE(shows(plc, discrete_input::ready));
+    std::this_thread::sleep_for(50ms);
+  }
+  const std::string log = testing::internal::GetCapturedStderr();
+  const std::size_t refused = log.find("code=E131");
+  ASSERT_NE(refused, std::string::npos) << log;
+  EXPECT_EQ(log.find("code=E131", refused + 1), std::string::npos) << log;
+  const std::size_t connected = log.find("code=N129");
+  EXPECT_TRUE(connected != std::string::npos && connected > refused) << log;
+}
+
 TEST(ModbusPoller, RestoresWhatARestartedPlcForgot) {
   PlcStandIn plc;
   const auto poller = start_poller(options_for(plc));

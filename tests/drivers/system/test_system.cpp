@@ -1,3 +1,5 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/resource.h>
@@ -7,6 +9,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdlib>
@@ -26,6 +29,7 @@ namespace graspd {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::HasSubstr;
 
 /// Sets an environment variable for as long as it lives.
 class Variable {
@@ -79,8 +83,6 @@ TEST(ServiceNotifier, SpeaksTheProtocolOfSystemd) {
   EXPECT_EQ(systemd.receive(), "WATCHDOG=1");
   notifier.status("%d banks, camera\n%s", 3, "lost");
   EXPECT_EQ(systemd.receive(), "STATUS=3 banks, camera lost");
-  notifier.reloading();
-  EXPECT_EQ(systemd.receive().find("RELOADING=1\nMONOTONIC_USEC="), 0U);
   notifier.stopping();
   EXPECT_EQ(systemd.receive(), "STOPPING=1");
 }
@@ -148,6 +150,57 @@ TEST(Log, TellsTheJournalFromATerminal) {
   EXPECT_FALSE(stderr_is_journal());
 }
 
+/// Standard error as a pipe, for as long as it lives.
+class PipedStandardError {
+ public:
+  PipedStandardError() : before_(dup(STDERR_FILENO)) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_NONBLOCK) != 0) return;
+    read_end_ = ends[0];
+    // Blocking, as standard error is.
+    fcntl(ends[1], F_SETFL, 0);
+    dup2(ends[1], STDERR_FILENO);
+    close(ends[1]);
+  }
+  ~PipedStandardError() {
+    dup2(before_, STDERR_FILENO);
+    close(before_);
+    close(read_end_);
+  }
+  PipedStandardError(const PipedStandardError&) = delete;
+  PipedStandardError& operator=(const PipedStandardError&) = delete;
+
+  [[nodiscard]] std::string take() const {
+    std::string text;
+    std::array<char, 4096> some{};
+    for (ssize_t count = 0; (count = read(read_end_, some.data(), some.size())) > 0;) {
+      text.append(some.data(), static_cast<std::size_t>(count));
+    }
+    return text;
+  }
+
+ private:
+  int before_;
+  int read_end_ = -1;
+};
+
+TEST(Log, LosesLinesRatherThanWaitForAReader) {
+  const PipedStandardError log;
+  constexpr int lines = 5000;
+  for (int i = 0; i < lines; ++i) log_event(LogLevel::info, "I110", "line %d of many", i);
+  const std::string first = log.take();
+  const auto came = std::count(first.begin(), first.end(), '\n');
+  EXPECT_GT(came, 100);
+  EXPECT_LT(came, lines);
+  EXPECT_TRUE(first.ends_with("\n"));
+  log_event(LogLevel::info, "I110", "there again");
+  const std::string then = log.take();
+  EXPECT_THAT(then, HasSubstr("code=W007 " + std::to_string(lines - came) + " lines before this one are lost"));
+  EXPECT_TRUE(then.ends_with("code=I110 there again\n")) << then;
+  log_event(LogLevel::info, "I110", "said once");
+  EXPECT_EQ(log.take(), "graspd info: code=I110 said once\n");
+}
+
 TEST(LogThrottle, HoldsBackAndSaysHowMany) {
   LogThrottle throttle(2, 1000);
   std::uint32_t suppressed = 0;
@@ -168,14 +221,6 @@ TEST(Clock, OnlyGoesForward) {
   const std::int64_t passed = monotonic_ns() - before;
   EXPECT_GE(passed, 2'000'000);
   EXPECT_LT(passed, 2'000'000'000);
-}
-
-TEST(MemoryLock, PrefaultLeavesContentsAlone) {
-  std::vector<std::byte> memory(100'000, std::byte{42});
-  prefault(memory);
-  prefault({});
-  prefault_stack(256 * 1024);
-  EXPECT_EQ(std::count(memory.begin(), memory.end(), std::byte{42}), 100'000);
 }
 
 // In a process of their own: signals are blocked and memory is locked for good.
