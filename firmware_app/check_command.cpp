@@ -57,6 +57,10 @@ Status check(const std::string& path) {
   if (!configuration.picture.empty()) {
     if (Status writable = check_writable(configuration.picture); !writable.ok()) return writable;
   }
+  for (const std::string& folder : {configuration.snapshots, configuration.record.folder}) {
+    if (folder.empty()) continue;
+    if (Status writable = check_folder(folder); !writable.ok()) return writable;
+  }
   const MemoryPlan plan = plan_memory(configuration, banks.value(), limits, frames.value().bytes, baseline);
   std::printf("\n%s", memory_table(plan, configuration.memory_budget).c_str());
   std::fflush(stdout);
@@ -71,8 +75,8 @@ void add_check_command(CLI::App& command_line, Status& outcome) {
   command->add_option("--config", *path, "Configuration file")->capture_default_str();
   command->footer(
       "Does what `graspd run` does before it serves anybody: reads the configuration, checks every\n"
-      "bank, tells which tool takes each grasp, opens the frames, and prints the memory that the\n"
-      "daemon would take, owner by owner.\n"
+      "bank, tells which tool takes each grasp, opens the frames, looks whether the outputs can be\n"
+      "written, and prints the memory that the daemon would take, owner by owner.\n"
       "Ends with code 7 when that is more than memory.budget.\n"
       "\n"
       "Example:\n"

@@ -14,7 +14,6 @@ constexpr float maximum_rotation_error = 0.01F;
 }  // namespace
 
 bool read_transform(SettingsTable& table, std::string_view key, RigidTransform& transform) {
-  if (!table.has(key)) return false;
   std::array<float, 16> matrix{};
   std::array<float, 7> position_and_quaternion{};
   if (table.element_count(key) == 7) {

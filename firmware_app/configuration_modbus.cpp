@@ -1,16 +1,34 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include "drivers/plc/client_filter.hpp"
+#include "drivers/plc/register_map.hpp"
 #include "firmware_app/configuration_sections.hpp"
 
 namespace graspd {
 namespace {
 
-void read_seconds(SettingsTable& table, std::string_view key, std::chrono::milliseconds& value) {
+/// Of `minimum` 0 means something else than a short time, so what is as good as 0 is refused.
+void read_seconds(SettingsTable& table, std::string_view key, std::chrono::milliseconds& value, double minimum) {
   float seconds = static_cast<float>(value.count()) * 1e-3F;
-  table.read(key, seconds, 0, 86400);
+  table.read(key, seconds, minimum, 86400);
   value = std::chrono::milliseconds(std::lround(static_cast<double>(seconds) * 1e3));
+  if (seconds > 0 && value.count() == 0) table.complain(key, "must be 0, or at least 0.001");
+}
+
+/// The address of this machine or of another one.
+void read_address(SettingsTable& table, std::string_view key, std::string& address) {
+  table.read(key, address);
+  if (!table.has(key) || parse_address(address, 0).ok()) return;
+  table.complain(key, "must be an IP address as a number, as in \"192.168.1.10\", but is \"" + address + "\"");
+}
+
+void read_allowed_clients(SettingsTable& table, std::vector<std::string>& clients) {
+  table.read("allow", clients);
+  const Result<ClientFilter> filter = ClientFilter::make(clients);
+  if (!filter.ok()) table.complain("allow", "cannot be used: " + std::string(filter.status().message()));
 }
 
 template <class Value>
@@ -21,14 +39,21 @@ void read_number(SettingsTable& table, std::string_view key, Value& value, int m
 }
 
 void read_client(SettingsTable table, PollerOptions& plc) {
-  table.read("address", plc.address);
+  constexpr int addresses = 65536;
+  read_address(table, "address", plc.address);
   read_number(table, "port", plc.port, 1, 65535);
   read_number(table, "unit", plc.unit, 0, 255);
-  read_number(table, "coil_address", plc.coil_address, 0, 65535);
-  read_number(table, "request_address", plc.request_address, 0, 65535);
-  read_number(table, "result_address", plc.result_address, 0, 65535);
-  read_seconds(table, "poll_period", plc.poll_period);
-  read_seconds(table, "response_timeout", plc.response_timeout);
+  // Each area must end before the addresses do.
+  read_number(table, "coil_address", plc.coil_address, 0, addresses - coil::count);
+  read_number(table, "request_address", plc.request_address, 0, addresses - request_register::count);
+  read_number(table, "result_address", plc.result_address, 0, addresses - input_register_space);
+  read_seconds(table, "poll_period", plc.poll_period, 0.001);
+  read_seconds(table, "response_timeout", plc.response_timeout, 0.01);
+  if (areas_overlap(plc)) {
+    table.complain(table.has("result_address") ? "result_address" : "request_address",
+                   "must leave room: the " + std::to_string(request_register::count) + " request registers and the " +
+                       std::to_string(input_register_space) + " of the results overlap");
+  }
   table.finish();
 }
 
@@ -52,14 +77,14 @@ void read_modbus_section(SettingsTable table, Configuration& configuration) {
   constexpr std::array angles{NamedValue<AngleUnit>{"degree", AngleUnit::degree},
                               NamedValue<AngleUnit>{"radian", AngleUnit::radian}};
   table.read_choice<ModbusRole>("role", configuration.modbus_role, roles);
-  table.read("address", modbus.bind_address);
+  read_address(table, "address", modbus.bind_address);
   read_number(table, "port", modbus.port, 0, 65535);
-  table.read("allow", modbus.allowed_clients);
+  read_allowed_clients(table, modbus.allowed_clients);
   table.read("maximum_clients", modbus.maximum_clients, 1, 64);
   table.read("maximum_rate", modbus.maximum_rate, 0, 1000000);
-  read_seconds(table, "idle_time", modbus.idle_time);
-  read_seconds(table, "heartbeat_timeout", modbus.heartbeat_timeout);
-  read_seconds(table, "request_timeout", modbus.request_timeout);
+  read_seconds(table, "idle_time", modbus.idle_time, 0);
+  read_seconds(table, "heartbeat_timeout", modbus.heartbeat_timeout, 0);
+  read_seconds(table, "request_timeout", modbus.request_timeout, 0);
   table.read_choice<WordOrder>("word_order", modbus.format.word_order, orders);
   table.read_choice<PoseConvention>("pose_convention", modbus.format.convention, conventions);
   table.read_choice<PositionUnit>("position_unit", modbus.format.length, lengths);

@@ -22,15 +22,19 @@ namespace {
                           "Modbus client: %u coils, %u request registers and %u result registers must end before 65536",
                           unsigned{coil::count}, unsigned{request_register::count}, unsigned{input_register_space});
   }
-  const unsigned request_end = options.request_address + unsigned{request_register::count};
-  const unsigned result_end = options.result_address + unsigned{input_register_space};
-  if (options.request_address < result_end && options.result_address < request_end) {
+  if (areas_overlap(options)) {
     return {StatusCode::bad_configuration, "Modbus client: request and result registers of the PLC overlap"};
   }
   return {};
 }
 
 }  // namespace
+
+bool areas_overlap(const PollerOptions& options) {
+  const unsigned request_end = options.request_address + unsigned{request_register::count};
+  const unsigned result_end = options.result_address + unsigned{input_register_space};
+  return options.request_address < result_end && options.result_address < request_end;
+}
 
 Result<std::unique_ptr<ModbusPoller>> ModbusPoller::start(const PollerOptions& options) {
   if (Status sound = check_options(options); !sound.ok()) return sound;

@@ -24,6 +24,9 @@ struct PollerOptions {
   std::chrono::milliseconds request_timeout{0};     ///< The worker must answer within; 0: not watched.
 };
 
+/// Whether the PLC's request registers and the room for what graspd writes share an address.
+[[nodiscard]] bool areas_overlap(const PollerOptions& options);
+
 /// graspd as the Modbus client of a PLC that is a server: looks at the PLC's coils and request registers,
 /// and writes the result block, the lists and the live registers into its holding registers, each block with
 /// its last sequence number by itself after the rest, and `done` after all of them. One thread of its own;

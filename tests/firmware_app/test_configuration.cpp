@@ -71,6 +71,31 @@ TEST_F(ConfigurationFile, UnknownKeyNamesTheNearestOne) {
   EXPECT_EQ(complaint("bnks = \"a.bank\"\n"), "graspd.toml:1: unknown key bnks; did you mean banks?");
 }
 
+TEST_F(ConfigurationFile, UnknownKeyNamesAPoseToo) {
+  EXPECT_EQ(complaint(std::string(smallest) + "[calibration]\nrobot_form_camera = [0, 0, 0, 0, 0, 0, 1]\n"),
+            "graspd.toml:6: unknown key calibration.robot_form_camera; did you mean calibration.robot_from_camera?");
+}
+
+TEST_F(ConfigurationFile, WhatTheLineToThePlcCannotTakeIsRefused) {
+  const auto modbus = [&](const std::string& keys) { return complaint(std::string(smallest) + "[modbus]\n" + keys); };
+  EXPECT_EQ(modbus("address = \"localhost\"\n"),
+            "graspd.toml:6: modbus.address must be an IP address as a number, as in \"192.168.1.10\", but is "
+            "\"localhost\"");
+  EXPECT_EQ(modbus("allow = [\"10.0.0.1\", \"10.0.0.0/40\"]\n"),
+            "graspd.toml:6: modbus.allow cannot be used: allowed client '10.0.0.0/40': the prefix must be 0 to 32");
+  EXPECT_EQ(modbus("heartbeat_timeout = 0.0001\n"),
+            "graspd.toml:6: modbus.heartbeat_timeout must be 0, or at least 0.001");
+  const std::string client = "role = \"client\"\n[modbus.client]\naddress = \"192.168.0.1\"\n";
+  EXPECT_THAT(modbus("role = \"client\"\n[modbus.client]\naddress = \"plc\"\n"),
+              StartsWith("graspd.toml:8: modbus.client.address must be an IP address"));
+  EXPECT_EQ(modbus(client + "poll_period = 0.0\n"),
+            "graspd.toml:9: modbus.client.poll_period must lie between 0.001 and 86400, but is 0");
+  EXPECT_THAT(modbus(client + "result_address = 65000\n"), StartsWith("graspd.toml:9: modbus.client.result_address"));
+  EXPECT_EQ(modbus(client + "request_address = 990\n"),
+            "graspd.toml:9: modbus.client.request_address must leave room: the 37 request registers and the 611 of "
+            "the results overlap");
+}
+
 TEST_F(ConfigurationFile, WrongTypeSaysWhatIsExpected) {
   EXPECT_EQ(complaint(std::string(smallest) + "[modbus]\nport = \"502\"\n"),
             "graspd.toml:6: modbus.port must be a whole number, but is a text in quotes");
