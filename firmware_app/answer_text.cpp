@@ -48,7 +48,7 @@ std::size_t explain_answer(const Answer& answer, std::span<char> text) {
     case ResultCode::nothing_left:
       return put(text, "no pick: the last capture holds no further one");
     case ResultCode::given_up:
-      return put(text, "no pick: the PLC gave the request up");
+      return put(text, "no pick: the request was given up before it had an answer");
     default:
       break;
   }

@@ -222,6 +222,8 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
   begin_choice(capture.frame, capture.detections, capture.banks, resolved.grasp, cycle.memory.grasp,
                cycle.memory.avoided.places());
   capture.picks = find_picks(cycle.memory.grasp, picks_needed(cycle.settings, request, 0));
+  // What the PLC will not be told of must not count as told: neither for `next` nor as the last place.
+  if (!plc.is_wanted(request.sequence)) return given_up(request);
   cycle.memory.avoided.age();
   capture.answered = true;
 
@@ -238,7 +240,7 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
   return answer;
 }
 
-Answer answer_next(PickCycle& cycle, const PlcRequest& request) {
+Answer answer_next(PickCycle& cycle, const PlcRequest& request, const PlcLink& plc) {
   Capture& capture = cycle.capture;
   if (Status served = check_served(request, cycle.settings); !served.ok()) return failed(cycle, request, served);
   if (request.avoid_last_place) avoid_last_place(cycle);
@@ -250,6 +252,7 @@ Answer answer_next(PickCycle& cycle, const PlcRequest& request) {
     set_time(answer.block, BlockStage::grasp, cycle.settings.now_ns() - start);
     put_verdict(capture, answer.block);
   }
+  if (!plc.is_wanted(request.sequence)) return given_up(request);
   if (capture.answered && capture.given < capture.picks.picks.size()) {
     put_picks(cycle, request, answer.block);
   } else {
@@ -263,7 +266,7 @@ Answer answer_next(PickCycle& cycle, const PlcRequest& request) {
 }  // namespace
 
 Answer answer_request(PickCycle& cycle, const PlcRequest& request, PlcLink& plc) {
-  return request.kind == RequestKind::next ? answer_next(cycle, request) : answer_capture(cycle, request, plc);
+  return request.kind == RequestKind::next ? answer_next(cycle, request, plc) : answer_capture(cycle, request, plc);
 }
 
 }  // namespace graspd

@@ -14,7 +14,7 @@ namespace graspd {
 class ScriptedPlc : public PlcLink {
  public:
   [[nodiscard]] bool wait_for_request(PlcRequest&, std::chrono::milliseconds) override { return false; }
-  [[nodiscard]] bool is_wanted(std::uint16_t) const override { return wanted; }
+  [[nodiscard]] bool is_wanted(std::uint16_t) const override { return wanted && ++looks_ != given_up_at_look; }
   void capture_done(std::uint16_t sequence) override { captured = sequence; }
   void commit(const ResultBlock& result) override { committed = result; }
   void set_camera_ok(bool ok) override { camera_ok = ok; }
@@ -23,10 +23,14 @@ class ScriptedPlc : public PlcLink {
   void stop() override {}
 
   bool wanted = true;
+  int given_up_at_look = 0;  ///< The one look that finds the request given up, counted from 1.
   std::uint16_t captured = 0;
   bool camera_ok = true;
   bool model_loaded = false;
   ResultBlock committed;
+
+ private:
+  mutable int looks_ = 0;
 };
 
 /// A camera whose next frame or failure a test sets.

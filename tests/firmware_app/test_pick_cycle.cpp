@@ -153,6 +153,26 @@ TEST(PickCycle, RequestThatNobodyWantsIsGivenUp) {
   EXPECT_FALSE(has_pick(answer.block));
 }
 
+TEST(PickCycle, PickOfARequestGivenUpMeanwhileDoesNotCountAsTold) {
+  PickCycleFixture fixture(angle_bar_scene());
+  ASSERT_EQ(fixture.ask().block.code, ResultCode::ok);
+  const Vector3 told = *fixture.cycle.last_place;
+  fixture.plc.given_up_at_look = 4;  // The second in the request to come, behind the detection.
+  EXPECT_EQ(fixture.ask().block.code, ResultCode::given_up);
+  EXPECT_EQ(*fixture.cycle.last_place, told);
+  EXPECT_EQ(fixture.ask(RequestKind::next).block.code, ResultCode::nothing_left);
+}
+
+TEST(PickCycle, NextThatWasGivenUpIsGivenAgain) {
+  PickCycleFixture fixture(angle_bar_scene());
+  ASSERT_EQ(fixture.ask().block.code, ResultCode::ok);
+  fixture.plc.given_up_at_look = 3;
+  EXPECT_EQ(fixture.ask(RequestKind::next).block.code, ResultCode::given_up);
+  const Answer next = fixture.ask(RequestKind::next);
+  EXPECT_EQ(next.block.code, ResultCode::ok);
+  EXPECT_EQ(next.block.result_index, 2);
+}
+
 TEST(PickCycle, DeadlineThatHasPassedIsTold) {
   PickCycleFixture fixture(angle_bar_scene());
   fixture.cycle.settings.deadline_ns = 1;
