@@ -20,8 +20,21 @@ constexpr int largest_number = 999999;
 int number_of(const fs::path& folder) {
   const std::string name = folder.filename().string();
   int number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  return error == std::errc() && end == name.data() + name.size() ? number : 0;
+  std::from_chars(name.data(), name.data() + name.size(), number);
+  return name == bop_number(number) ? number : 0;
+}
+
+/// The parts that were looked for in a recording. None when that cannot be told any more: one recording that was
+/// damaged must not keep the line from running, and goes when it is the oldest.
+std::set<std::uint32_t> parts_in(const fs::path& recording) {
+  std::set<std::uint32_t> parts;
+  const Result<nlohmann::json> record = read_json(recording / "record.json");
+  if (!record.ok() || !record.value().is_object() || !record.value().contains("banks")) return parts;
+  for (const nlohmann::json& bank : record.value()["banks"]) {
+    if (!bank.is_object() || !bank.contains("part") || !bank["part"].is_number_unsigned()) continue;
+    parts.insert(bank["part"].get<std::uint32_t>());
+  }
+  return parts;
 }
 
 std::size_t bytes_below(const fs::path& folder) {
@@ -51,18 +64,27 @@ Result<RecordFolder> RecordFolder::open(const RecordSettings& settings) {
   for (const auto& entry : fs::directory_iterator(folder.scenes(), error)) {
     const int number = number_of(entry.path());
     if (number <= 0) continue;
-    Recording recording{number, bytes_below(entry.path()), {}};
-    const Result<nlohmann::json> record = read_json(entry.path() / "record.json");
-    if (!record.ok()) return record.status();
-    for (const auto& bank : record.value().value("banks", nlohmann::json::array())) {
-      recording.parts.insert(bank.value("part", 0U));
-    }
-    folder.recordings_.push_back(std::move(recording));
+    folder.recordings_.push_back({number, bytes_below(entry.path()), parts_in(entry.path())});
   }
-  std::sort(folder.recordings_.begin(), folder.recordings_.end(),
-            [](const Recording& a, const Recording& b) { return a.number < b.number; });
+  folder.sort_by_age();
   if (!folder.recordings_.empty()) folder.next_ = folder.recordings_.back().number % largest_number + 1;
   return folder;
+}
+
+/// Numbers begin again behind the largest one: where the widest gap between them is, the oldest follows.
+void RecordFolder::sort_by_age() {
+  std::sort(recordings_.begin(), recordings_.end(),
+            [](const Recording& a, const Recording& b) { return a.number < b.number; });
+  std::size_t oldest = 0;
+  int widest = 0;
+  for (std::size_t i = 0; i < recordings_.size(); ++i) {
+    const int before = i == 0 ? recordings_.back().number - largest_number : recordings_[i - 1].number;
+    const int gap = recordings_[i].number - before;
+    if (gap <= widest) continue;
+    widest = gap;
+    oldest = i;
+  }
+  std::rotate(recordings_.begin(), recordings_.begin() + static_cast<std::ptrdiff_t>(oldest), recordings_.end());
 }
 
 Result<fs::path> RecordFolder::add(const std::set<std::uint32_t>& parts,

@@ -31,7 +31,7 @@ struct RecordSettings {
 /// oldest recordings go when there are more, or larger ones, than the settings allow.
 class RecordFolder {
  public:
-  /// Looks at what is there. Fails with cannot_write, or with bad_file for a recording that cannot be read.
+  /// Looks at what is there. Fails with cannot_write.
   [[nodiscard]] static Result<RecordFolder> open(const RecordSettings& settings);
 
   /// Adds a recording: `fill` writes its files into the folder that it is given; only when all are written
@@ -48,11 +48,12 @@ class RecordFolder {
 
   explicit RecordFolder(const RecordSettings& settings) : settings_(settings) {}
   [[nodiscard]] std::filesystem::path scenes() const;
+  void sort_by_age();
   void forget_oldest();
   [[nodiscard]] Status write_targets() const;
 
   RecordSettings settings_;
-  std::vector<Recording> recordings_;  ///< By rising number.
+  std::vector<Recording> recordings_;  ///< The oldest first.
   int next_ = 1;
 };
 

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view prefix = "snapshot_";
 
-/// Names sort by age.
+/// Names sort by age, as long as the clock goes forward.
 [[nodiscard]] std::string name_for(std::uint16_t request_id) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
@@ -73,16 +73,18 @@ Status SnapshotWriter::write() {
   written_id_ = request_id_;
   const fs::path path = folder_ / name_for(request_id_);
   Status written = write_frame_folder(path, {camera_, memory_.first(camera_.pixel_count()), 0, 0});
-  if (written.ok()) drop_oldest();
+  if (written.ok()) drop_oldest(path);
   return written;
 }
 
-void SnapshotWriter::drop_oldest() const {
+void SnapshotWriter::drop_oldest(const fs::path& newest) const {
   std::vector<fs::path> snapshots;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
     if (entry.path().filename().string().starts_with(prefix)) snapshots.push_back(entry.path());
   }
   std::ranges::sort(snapshots);
+  // Names of a later time are from before the clock was set back, so older than all others.
+  std::rotate(snapshots.begin(), std::ranges::upper_bound(snapshots, newest), snapshots.end());
   for (std::size_t i = 0; i + kept_ < snapshots.size(); ++i) fs::remove_all(snapshots[i]);
 }
 

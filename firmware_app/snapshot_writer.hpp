@@ -28,7 +28,7 @@ class SnapshotWriter {
  private:
   [[nodiscard]] Status write();
   void tell(const Status& written) const;
-  void drop_oldest() const;
+  void drop_oldest(const std::filesystem::path& newest) const;
 
   std::filesystem::path folder_;
   std::size_t kept_;

@@ -145,5 +145,43 @@ TEST(Record, KeepsItsQuota) {
   EXPECT_THAT(text_of(settings.folder + "/recorded_targets_bop19.json"), HasSubstr("\"scene_id\": 6"));
 }
 
+/// A folder of recordings that holds these already, each with this record.json.
+RecordSettings recordings(const TemporaryFolder& folder, const std::vector<std::pair<std::string, std::string>>& held) {
+  RecordSettings settings;
+  settings.folder = folder.path("records");
+  settings.maximum_frames = 3;
+  for (const auto& [name, record] : held) {
+    const std::filesystem::path recording = std::filesystem::path(settings.folder) / "recorded" / name;
+    std::filesystem::create_directories(recording);
+    std::ofstream(recording / "record.json") << record;
+  }
+  return settings;
+}
+
+std::string added_to(RecordFolder& records) {
+  const auto added = records.add(
+      {7}, [](const std::filesystem::path& scene) { return write_file(scene / "a", std::string_view("x")); });
+  return added.ok() ? added.value().filename().string() : std::string(added.status().message());
+}
+
+TEST(Record, DamagedRecordingsDoNotKeepTheLineFromRunning) {
+  for (const char* record : {"", "[]", "3", "{\"banks\": 3}", "{\"banks\": [1]}", "{\"banks\": [{\"part\": \"x\"}]}"}) {
+    const TemporaryFolder folder;
+    Result<RecordFolder> records = RecordFolder::open(recordings(folder, {{"000004", record}, {"12", record}}));
+    ASSERT_TRUE(records.ok()) << record << ": " << records.status().message();
+    EXPECT_EQ(added_to(records.value()), "000005") << record;
+  }
+}
+
+TEST(Record, NumbersBeginAgainAfterARestart) {
+  const TemporaryFolder folder;
+  const RecordSettings settings = recordings(folder, {{"000001", "{}"}, {"999998", "{}"}, {"999999", "{}"}});
+  Result<RecordFolder> records = RecordFolder::open(settings);
+  ASSERT_TRUE(records.ok()) << records.status().message();
+  EXPECT_EQ(added_to(records.value()), "000002");
+  EXPECT_FALSE(std::filesystem::exists(settings.folder + "/recorded/999998")) << "the oldest";
+  EXPECT_TRUE(std::filesystem::exists(settings.folder + "/recorded/000001"));
+}
+
 }  // namespace
 }  // namespace graspd
