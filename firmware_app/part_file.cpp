@@ -215,7 +215,7 @@ Result<PartFile> read_part_file(const std::string& path) {
   if (root.has("name") && (part.name.empty() || part.name.size() >= sizeof(BankPart::name))) {
     root.complain("name", "must have between 1 and 63 letters");
   }
-  root.read("id", part.part_id, 0U, 65535U);
+  root.read("id", part.part_id, 1U, 65535U);
   root.read_path("mesh", result.mesh_path);
   constexpr std::array units{NamedValue<LengthUnit>{"mm", LengthUnit::millimetres},
                              NamedValue<LengthUnit>{"m", LengthUnit::metres}};

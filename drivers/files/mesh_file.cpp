@@ -29,6 +29,24 @@ Result<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::path& pat
                         path.c_str());
 }
 
+/// Refuses what no gripper could hold: then the file's unit is another than was said.
+Status check_extent(const Mesh& mesh, LengthUnit unit, const std::filesystem::path& path) {
+  constexpr float smallest = 0.001F;
+  constexpr float largest = 10.0F;
+  Vector3 low = mesh.vertices[mesh.triangles.front()[0]];
+  Vector3 high = low;
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) {
+      low = low.cwiseMin(mesh.vertices[vertex]);
+      high = high.cwiseMax(mesh.vertices[vertex]);
+    }
+  }
+  const float extent = (high - low).norm();
+  if (extent >= smallest && extent <= largest) return {};
+  return Status::format(StatusCode::bad_file, "%s: %g mm across when it is read in %s: is that its unit?", path.c_str(),
+                        static_cast<double>(extent) * 1e3, unit == LengthUnit::metres ? "metres" : "millimetres");
+}
+
 }  // namespace
 
 Result<Mesh> read_mesh(const std::filesystem::path& path, LengthUnit unit) {
@@ -41,6 +59,7 @@ Result<Mesh> read_mesh(const std::filesystem::path& path, LengthUnit unit) {
                           path.c_str());
   }
   for (Vector3& vertex : mesh.value().vertices) vertex *= metres_per(unit);
+  if (Status sized = check_extent(mesh.value(), unit, path); !sized.ok()) return sized;
   return mesh;
 }
 
