@@ -64,6 +64,8 @@ Status GenicamSource::grab(std::span<float> storage, DepthFrame& frame) {
   request_ = RequestState::none;
   wanted_ = false;
   if (!done) {
+    // The thread waits for a camera that may be gone, for longer than anybody should believe that it is there.
+    connected_ = false;
     return Status::format(StatusCode::camera_lost, "the camera did not answer within %.2f s",
                           static_cast<double>(options_.timeout_ns) * 1e-9);
   }
@@ -167,6 +169,7 @@ void GenicamSource::serve() {
       const std::lock_guard lock(mutex_);
       if (request_ != RequestState::wanted) {
         session_->discard();
+        connected_ = true;
         return;
       }
       request_ = RequestState::decoding;
@@ -177,7 +180,11 @@ void GenicamSource::serve() {
   }
   finish(status);
   // Giving up a session takes long when the camera is gone, so it waits until the caller has its answer.
-  if (session_->lost() || session_->changed()) disconnect(status);
+  if (session_->lost() || session_->changed()) {
+    disconnect(status);
+  } else {
+    connected_ = true;
+  }
 }
 
 void GenicamSource::finish(const Status& status) {

@@ -33,6 +33,18 @@ TEST_F(CameraFaults, GoneInMidFrameAndBack) {
   EXPECT_EQ(source_->connection_count(), 2U);
 }
 
+TEST_F(CameraFaults, GoneBeforeTheTriggerIsNotSaidToBeThere) {
+  switch_on();
+  connect();
+  ASSERT_TRUE(grab_in_time().ok());
+  camera_.reset();
+  EXPECT_EQ(grab_in_time().code(), StatusCode::camera_lost);
+  EXPECT_FALSE(source_->connected()) << "the trigger is still being tried, but nobody answers it";
+  switch_on();
+  recover("unplugged before the trigger");
+  EXPECT_TRUE(source_->connected());
+}
+
 TEST_F(CameraFaults, RestartedBetweenRequests) {
   switch_on();
   connect();
