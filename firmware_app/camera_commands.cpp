@@ -137,6 +137,12 @@ void add_camera_commands(CLI::App& command_line, Status& outcome) {
   CLI::App* camera = command_line.add_subcommand("camera", "Look for 3D cameras and try them");
   camera->require_subcommand(1);
   CLI::App* list = camera->add_subcommand("list", "List the GigE Vision cameras that answer");
+  list->footer(
+      "Prints serial number, address, vendor and model of each. A camera on another network than\n"
+      "this machine's does not answer.\n"
+      "\n"
+      "Example:\n"
+      "  graspd camera list");
   list->callback([&outcome] { outcome = list_cameras(); });
 
   CLI::App* show = camera->add_subcommand("show", "Show what a camera says of its depth images");

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -57,6 +60,8 @@ class BadInput : public testing::Test {
 TEST_F(BadInput, CommandLine) {
   expect_refusal({}, 2, {"subcommand", "--help"});
   expect_refusal({"detct"}, 2, {"detct", "did you mean detect?"});
+  expect_refusal({"bank", "shw"}, 2, {"no subcommand bank shw", "did you mean bank show?"});
+  expect_refusal({"bank"}, 2, {"see graspd bank --help"});
   expect_refusal({"detect", frame_}, 2, {"--bank"});
   expect_refusal({"detect", frame_, "--bank", bank_, "--thread", "1"}, 2, {"--thread"});
   expect_refusal({"detect", frame_, "--bank", bank_, "--minimum-score", "7"}, 2, {"--minimum-score"});
@@ -242,6 +247,18 @@ TEST_F(BadInput, DataSet) {
                  4, {"test_targets_bop19.json"});
   expect_refusal({"bank", "compile", "--bop", folder_.path("data"), "-o", folder_.path("banks")}, 4,
                  {"models_info.json"});
+}
+
+TEST_F(BadInput, OutputThatDoesNotReachItsReaderIsAFailure) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "the system has no /dev/full";
+  const std::string errors = folder_.path("errors.txt");
+  const std::string command = std::string(GRASPD_BINARY) + " bank show " + bank_ + " >/dev/full 2>" + errors;
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 6);
+  std::ifstream file(errors);
+  std::string line;
+  std::getline(file, line);
+  EXPECT_THAT(line, HasSubstr("graspd: standard output took only a part"));
 }
 
 }  // namespace
