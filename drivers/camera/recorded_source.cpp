@@ -47,7 +47,7 @@ Status collect_scene(const RecordedSourceOptions& options, FrameCollector& colle
     for (const BopImage& image : scene.value().images) images.push_back(image.im_id);
   }
   for (const int im_id : images) {
-    const Status status = collector.add(load_bop_frame(scene.value(), im_id));
+    const Status status = collector.add(load_bop_frame(scene.value(), im_id, options.files.empty_file));
     if (!status.ok()) return status;
   }
   return {};

@@ -245,7 +245,7 @@ Result<std::vector<BopModel>> read_bop_models(const fs::path& root) {
   return models;
 }
 
-Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id) {
+Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id, const fs::path& empty_file) {
   const BopImage* const image = scene.find(im_id);
   if (image == nullptr) {
     return Status::format(StatusCode::bad_file, "%s: no image %d", (scene.folder / "scene_camera.json").c_str(), im_id);
@@ -264,7 +264,8 @@ Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id) {
     return Status::format(StatusCode::bad_frame, "%s: no pixel is measured: was the camera covered or its light off?",
                           path.c_str());
   }
-  fs::path empty_path = find_depth_file(scene.folder / "empty" / bop_number(im_id));
+  fs::path empty_path = empty_file;
+  if (empty_path.empty()) empty_path = find_depth_file(scene.folder / "empty" / bop_number(im_id));
   if (empty_path.empty()) empty_path = find_depth_file(scene.folder / "empty" / bop_number(0));
   if (!empty_path.empty()) {
     const Status read_empty = load_depth(empty_path, image->depth_scale, frame.camera, frame.empty_depth);

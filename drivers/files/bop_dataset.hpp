@@ -88,10 +88,11 @@ struct BopResult {
 /// Reads `root`/models/models_info.json; by rising obj_id. Every mesh file must be there.
 [[nodiscard]] Result<std::vector<BopModel>> read_bop_models(const std::filesystem::path& root);
 
-/// Reads the depth of one image (depth/000000.png, .tif or .tiff) with the scene's empty frame when there
-/// is one (empty/<image> or else empty/000000). Fails with bad_file, or with bad_frame when nothing in the
-/// image is measured or the empty frame has another size.
-[[nodiscard]] Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id);
+/// Reads the depth of one image (depth/000000.png, .tif or .tiff) with `empty_file` as the empty bin; when none is
+/// named with the scene's own if there is one (empty/<image> or else empty/000000). Fails with bad_file, or with
+/// bad_frame when nothing in the image is measured or the empty frame has another size.
+[[nodiscard]] Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id,
+                                                 const std::filesystem::path& empty_file = {});
 
 /// Writes BOP's result form: scene_id,im_id,obj_id,score,R,t,time with R row-major and t in millimetres.
 /// Fails with cannot_write.

@@ -92,12 +92,7 @@ Result<LoadedFrame> load_image(const fs::path& path, const FrameFileOptions& opt
 Result<LoadedFrame> load_from_scene(const BopPlace& place, const FrameFileOptions& options) {
   const Result<BopScene> scene = read_bop_scene(place.scene_folder);
   if (!scene.ok()) return scene.status();
-  Result<LoadedFrame> frame = load_bop_frame(scene.value(), place.im_id);
-  if (!frame.ok() || options.empty_file.empty()) return frame;
-  const Status empty = load_depth(options.empty_file, scene.value().find(place.im_id)->depth_scale,
-                                  frame.value().camera, frame.value().empty_depth);
-  if (!empty.ok()) return empty;
-  return frame;
+  return load_bop_frame(scene.value(), place.im_id, options.empty_file);
 }
 
 /// The frame of the empty bin that lies in the folder empty/ of a scene: its depth is as the scene's first image.

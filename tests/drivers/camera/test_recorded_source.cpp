@@ -53,6 +53,17 @@ TEST_F(RecordedFrames, PlaysASceneOverAndOver) {
   EXPECT_EQ(source->bytes(), 4U * BopFolder::width * BopFolder::height * sizeof(float));
 }
 
+TEST_F(RecordedFrames, PlaysASceneWithTheEmptyBinThatIsNamed) {
+  RecordedSourceOptions options{folder_.scene(), {}, {}};
+  folder_.write_depth("other.png", 4000);
+  options.files.empty_file = folder_.root() / "other.png";
+  const auto source = open(options);
+  EXPECT_FLOAT_EQ(next(*source), 0.5F);
+  EXPECT_FLOAT_EQ(source->empty_bin().at(1, 0), 2.0F);
+  options.files.empty_file = folder_.root() / "none.png";
+  EXPECT_THAT(refusal(options), HasSubstr("none.png: No such file"));
+}
+
 TEST_F(RecordedFrames, PlaysChosenImagesInTheirOrder) {
   const auto source = open({folder_.scene(), {7, 7, 0}, {}});
   EXPECT_FLOAT_EQ(next(*source), 0.7F);
