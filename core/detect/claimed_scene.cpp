@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/detect/consistency.hpp"
+
 namespace graspd {
 
 namespace {
@@ -65,20 +67,28 @@ void release(const SceneMap& map, const RenderedModel& model, std::size_t k, Cla
   }
 }
 
-std::size_t main_claimant(const SceneMap& map, const RenderedModel& model, const ClaimedScene& claims) {
+ClaimedShare claimed_share(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part,
+                           float tolerance, const ClaimedScene& claims) {
+  constexpr int looked_at = 400;
+  int confirmed = 0;
+  int claimed = 0;
   // By majority vote (Boyer and Moore 1981).
   std::uint16_t holder = 0;
   int lead = 0;
-  for (int v = 0; v < model.rectangle.height; ++v) {
-    for (int u = 0; u < model.rectangle.width; ++u) {
-      if (model.front[model.camera.index(u, v)] == 0.0F) continue;
-      const std::uint16_t number = claims.cells[map.camera.index(model.rectangle.left + u, model.rectangle.top + v)];
-      if (number == 0) continue;
-      if (lead == 0) holder = number;
-      lead += number == holder ? 1 : -1;
+  const auto ask = [&](const SurfacePoint& surface, const Vector3& point, const MapCell* cell) {
+    if (cell == nullptr) return;
+    const std::uint16_t number = claims.cells[static_cast<std::size_t>(cell - map.cells.data())];
+    if (confirms(*cell, point, camera_from_part.rotation * surface.normal, tolerance)) {
+      ++confirmed;
+      claimed += number != 0 ? 1 : 0;
     }
-  }
-  return holder == 0 ? no_instance : holder - std::size_t{1};
+    if (number == 0) return;
+    if (lead == 0) holder = number;
+    lead += number == holder ? 1 : -1;
+  };
+  for_each_looked_up(map, bank, camera_from_part, visible_row(bank, camera_from_part), looked_at, ask);
+  if (claimed == 0) return {};
+  return {static_cast<float>(claimed) / static_cast<float>(confirmed), holder - std::size_t{1}};
 }
 
 float shared_room(const RenderedModel& candidate, const ClaimedScene& claims, float tolerance) {

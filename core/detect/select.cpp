@@ -31,11 +31,8 @@ struct Selection {
   }
 };
 
-/// Notes a pose of claimed surface, to be held against the instance that claims it.
-void note_rival(const Selection& selection, const Instance& rival, const RenderedModel& model,
-                SelectWorkspace& workspace) {
-  const std::size_t holder = main_claimant(selection.map, model, workspace.claims);
-  if (holder == no_instance) return;
+/// Notes a pose of surface that is claimed, to be held against the instance that claims it.
+void note_rival(const Selection& selection, const Instance& rival, std::size_t holder, SelectWorkspace& workspace) {
   Standing& standing = workspace.standings[holder];
   if (standing.rivals == most_rivals || lead_by_evidence(selection.banks, standing.alone, rival) >= hopeless_lead ||
       !differ(selection.banks, rival, standing.alone))
@@ -66,15 +63,17 @@ Outcome consider(const Selection& selection, Instance& instance, SelectWorkspace
                  FixedVector<Instance>& accepted) {
   ClaimedScene& claims = workspace.claims;
   const Bank& bank = selection.banks[instance.bank];
+  const ClaimedShare claimed =
+      claimed_share(selection.map, bank, instance.camera_from_part, selection.tolerance(instance), claims);
+  if (claimed.share > 0.5F) {
+    instance.rejection = Rejection::duplicate;
+    note_rival(selection, instance, claimed.holder, workspace);
+    return Outcome::refused;
+  }
   const std::size_t room = free_room(claims);
   const RenderedModel model = render_into(claims, room, selection.map, bank, instance.camera_from_part);
   if (model.rectangle.empty() || accepted.full() || claims.rooms.full()) return Outcome::no_room;
   const Evidence own = gather_evidence(selection.map, bank, model, selection.parameters, claims.cells);
-  if (own.confirmed < 0.5F * instance.evidence.confirmed) {
-    instance.rejection = Rejection::duplicate;
-    note_rival(selection, instance, model, workspace);
-    return Outcome::refused;
-  }
   const Instance alone = instance;
   judge_among_others(selection, model, own, claims, accepted.span(), instance);
   if (instance.rejection != Rejection::none) return Outcome::refused;

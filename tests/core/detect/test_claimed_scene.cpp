@@ -29,6 +29,9 @@ class Claiming : public BracketMap {
   [[nodiscard]] RenderedModel render(const RigidTransform& pose) const {
     return render_into(claims_, free_room(claims_), scene_.map, maker_.bank(), pose);
   }
+  [[nodiscard]] ClaimedShare share(const RigidTransform& pose) const {
+    return claimed_share(scene_.map, maker_.bank(), pose, 0.001F, claims_);
+  }
   [[nodiscard]] std::ptrdiff_t claimed_by(std::size_t k) const {
     return std::count(claims_.cells.begin(), claims_.cells.end(), static_cast<std::uint16_t>(k + 1));
   }
@@ -38,8 +41,22 @@ TEST_F(Claiming, WhoExplainsASurfaceHoldsIt) {
   for (const RigidTransform& pose : bin_.poses) accept(pose);
   for (std::size_t k = 0; k < bin_.poses.size(); ++k) {
     EXPECT_GT(claimed_by(k), 100);
-    EXPECT_EQ(main_claimant(scene_.map, render(bin_.poses[k]), claims_), k);
+    const ClaimedShare claimed = share(bin_.poses[k]);
+    EXPECT_GT(claimed.share, 0.9F);
+    EXPECT_EQ(claimed.holder, k);
   }
+}
+
+TEST_F(Claiming, APoseOnClaimedSurfaceFindsItsHolder) {
+  const RigidTransform& pose = bin_.poses[0];
+  accept(pose);
+  RigidTransform beside = pose;
+  const float width = maker_.bank().part->box_max.x() - maker_.bank().part->box_min.x();
+  beside.translation += 0.05F * width * pose.rotation.col(0);
+  EXPECT_GT(share(beside).share, 0.9F);
+  EXPECT_EQ(share(beside).holder, 0U);
+  EXPECT_EQ(share(bin_.poses[1]).share, 0.0F);
+  EXPECT_EQ(share(bin_.poses[1]).holder, no_instance);
 }
 
 TEST_F(Claiming, WhatIsReleasedIsNobodys) {
@@ -49,7 +66,7 @@ TEST_F(Claiming, WhatIsReleasedIsNobodys) {
   release(scene_.map, second, 1, claims_);
   EXPECT_EQ(claimed_by(1), 0);
   EXPECT_EQ(claimed_by(0), first);
-  EXPECT_EQ(main_claimant(scene_.map, second, claims_), no_instance);
+  EXPECT_EQ(share(bin_.poses[1]).holder, no_instance);
 }
 
 TEST_F(Claiming, ARoomKeepsItsModel) {
