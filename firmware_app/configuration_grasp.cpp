@@ -80,6 +80,7 @@ void read_grasp_section(SettingsTable table, GraspSettings& settings) {
   table.read("sample_spacing", grasp.collision.sample_spacing, 0.1, 100, metres_per_millimetre);
   table.read("minimum_points", grasp.collision.minimum_points, 1U, 8U);
   table.read("unexplained_clearance", grasp.collision.unexplained_clearance, 0, 1000, metres_per_millimetre);
+  table.read("unseen_clearance", grasp.collision.unseen_clearance, 0, 1000, metres_per_millimetre);
   table.read("hidden_clearance", grasp.collision.hidden_clearance, 0, 1000, metres_per_millimetre);
   table.read("maximum_hidden", grasp.collision.maximum_hidden, 0, 1);
   read_retreat(table.table("retreat"), grasp.retreat);

@@ -44,7 +44,7 @@ bool closing_collides(const Attempt& attempt, float opening) {
   CollisionParameters touching = attempt.parameters.collision;
   touching.minimum_clearance = 0.0F;
   const Sweep closing{attempt.camera_from_tool, &jaws, Vector3::Zero()};
-  return sweep_collides(*attempt.around.cloud, closing, attempt.part, touching) ||
+  return sweep_collides(attempt.around, closing, attempt.part, touching) ||
          sweep_meets_instances(attempt.around, attempt.instance, closing,
                                0.5F * attempt.parameters.collision.minimum_clearance);
 }
@@ -55,7 +55,7 @@ bool retreat_collides(const Attempt& attempt) {
   const Sweep sweep{attempt.camera_from_tool, &closed, attempt.camera_from_tool.rotation.transpose() * motion};
   const CollisionParameters& collision = attempt.parameters.collision;
   if (sweep_meets_walls(attempt.around.walls, sweep, collision.minimum_clearance)) return true;
-  if (sweep_collides(*attempt.around.cloud, sweep, attempt.part, collision)) return true;
+  if (sweep_collides(attempt.around, sweep, attempt.part, collision)) return true;
   return carried_meets_walls(attempt.around.walls, attempt.camera_from_part, attempt.bank, motion,
                              attempt.tool.contact_margin);
 }
@@ -100,8 +100,9 @@ GraspRejection test_unrecognised(const Attempt& attempt, const Gripper& gripper,
   if (check.beaten) return GraspRejection::none;
   if (share > most) return GraspRejection::unseen;
   check.hidden = hidden_part_clearance(share, collision);
-  const float clearance = collision.unexplained_clearance + check.hidden;
-  if (clearance <= 0.0F || !nears_unexplained(attempt.around, sweep, attempt.part, clearance)) {
+  const UnexplainedClearance clearance{collision.unexplained_clearance + check.hidden, collision.unseen_clearance};
+  if (std::max(clearance.any, clearance.unseen) <= 0.0F ||
+      !nears_unexplained(attempt.around, sweep, attempt.part, clearance)) {
     return GraspRejection::none;
   }
   return check.hidden > 0.0F ? GraspRejection::unseen : GraspRejection::collision;
@@ -112,7 +113,7 @@ GraspRejection test_opening(const Attempt& attempt, const Gripper& gripper, cons
                             float useful, GraspCheck& check) {
   const CollisionParameters& collision = attempt.parameters.collision;
   if (sweep_meets_walls(attempt.around.walls, sweep, collision.minimum_clearance)) return GraspRejection::wall;
-  if (sweep_collides(*attempt.around.cloud, sweep, attempt.part, collision)) return GraspRejection::collision;
+  if (sweep_collides(attempt.around, sweep, attempt.part, collision)) return GraspRejection::collision;
   if (sweep_meets_instances(attempt.around, attempt.instance, sweep, collision.minimum_clearance)) {
     return GraspRejection::neighbour;
   }

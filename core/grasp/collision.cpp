@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/grasp/cloud_visit.hpp"
+#include "core/grasp/speck.hpp"
 
 namespace graspd {
 namespace {
@@ -33,21 +34,19 @@ class NearestDistances {
 
 }  // namespace
 
-bool is_part(const Vector3& point, const GripperPiece& piece, const Gripper& gripper, const HeldPart& part) {
-  return piece.touches_part && gripper.held.contains(point) && part.bounds.contains(part.part_from_tool * point);
-}
-
-bool sweep_collides(const CloudMap& map, const Sweep& sweep, const HeldPart& part,
+bool sweep_collides(const GraspSurroundings& around, const Sweep& sweep, const HeldPart& part,
                     const CollisionParameters& parameters) {
   const RigidTransform tool_from_camera = inverse(sweep.camera_from_tool);
   const auto collides = [&](const GripperPiece& piece, const Box& box, const Vector3& motion) {
     const Box bounds = swept_bounds(box, motion);
     std::uint32_t hits = 0;
-    visit_points(map, sweep.camera_from_tool, tool_from_camera, bounds, [&](std::size_t, const Vector3& point) {
-      if (!sweeps_over(box, motion, point)) return false;
-      if (is_part(point, piece, *sweep.gripper, part)) return false;
-      return ++hits >= parameters.minimum_points;
-    });
+    visit_points(*around.cloud, sweep.camera_from_tool, tool_from_camera, bounds,
+                 [&](std::size_t cell, const Vector3& point) {
+                   if (!sweeps_over(box, motion, point)) return false;
+                   if (is_part(point, piece, *sweep.gripper, part)) return false;
+                   if (is_speck(around, cell, sweep.camera_from_tool * point)) return false;
+                   return ++hits >= parameters.minimum_points;
+                 });
     return hits >= parameters.minimum_points;
   };
   const std::span<const GripperPiece> pieces = sweep.gripper->all();

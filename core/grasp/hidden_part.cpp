@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/geometry/chance.hpp"
+#include "core/grasp/hidden_places.hpp"
 
 namespace graspd {
 namespace {
@@ -65,29 +66,12 @@ const TurnedPart& turned_part(const HiddenSpace& space, std::size_t bank, std::s
   return kept[turn];
 }
 
-/// Whether points (camera frame) of a part may be there without being seen.
-class HiddenPlaces {
- public:
-  HiddenPlaces(const HiddenSpace& space, const BinWalls& walls)
-      : space_(space), walls_(walls), inside_(grown(walls.inside, HiddenSpace::slack)) {}
-  [[nodiscard]] bool hold(const Vector3& point) const {
-    const HiddenCell cell = cell_of(space_.camera, point);
-    if (cell.u >= 0 && is_in_sight(space_, cell, point.z(), TileState::measured)) return false;
-    if (walls_.count > 0 && !inside_.contains(walls_.bin_from_camera * point)) return false;
-    return cell.u < 0 || !is_in_sight(space_, cell, point.z(), TileState::whole);
-  }
-  /// Whether a part in one orientation, moved to `place`, would be hidden whole.
-  [[nodiscard]] bool hide(const TurnedPart& turned, const Vector3& place) const {
-    int in_sight = 0;
-    return std::all_of(turned.outline.begin(), turned.outline.end(),
-                       [&](const Vector3& point) { return hold(point + place) || ++in_sight <= forgiven; });
-  }
-
- private:
-  const HiddenSpace& space_;
-  const BinWalls& walls_;
-  Box inside_;
-};
+/// Whether a part in one orientation, moved to `place`, would be hidden whole.
+bool hide(const HiddenPlaces& hidden, const TurnedPart& turned, const Vector3& place) {
+  int in_sight = 0;
+  return std::all_of(turned.outline.begin(), turned.outline.end(),
+                     [&](const Vector3& point) { return hidden.hold(point + place) || ++in_sight <= forgiven; });
+}
 
 /// Places on the pieces that touch the held part, those of a group together: of the poses, every group tries others.
 struct TriedPlaces {
@@ -150,7 +134,7 @@ float hidden_part_share(const HiddenSpace& space, std::size_t bank, const BinWal
     for (std::size_t anchor = 0; anchor < TurnedPart::anchor_points; ++anchor) {
       const TriedPlaces::Group& group = tried.groups[(turn + anchor) % thinning];
       for (std::size_t i = 0; i < group.count; ++i) {
-        if (hidden.hide(turned, group.places[i] - turned.anchors[anchor])) ++count;
+        if (hide(hidden, turned, group.places[i] - turned.anchors[anchor])) ++count;
       }
     }
     if (static_cast<float>(count) > most * poses) break;

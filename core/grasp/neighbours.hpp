@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "core/grasp/collision.hpp"
 #include "core/grasp/surroundings.hpp"
+#include "core/grasp/sweep.hpp"
 
 namespace graspd {
 

@@ -27,8 +27,9 @@ struct CollisionParameters {
   /// Metres, in place of minimum_clearance, to what was measured and is neither a detected instance nor the bin; and so
   /// much more for each tenfold of poses in which a part could hide in the gripper's way (hidden_part_share).
   float unexplained_clearance = 0.0025F;
+  float unseen_clearance = 0.006F;  ///< The same where nothing was seen between the two.
   float hidden_clearance = 0.0018F;
-  float maximum_hidden = 0.01F;  ///< Of such poses, the share from which on a grasp is not tried at all.
+  float maximum_hidden = 0.04F;  ///< Of such poses, the share from which on a grasp is not tried at all.
 };
 
 /// The bin: a box without a lid.

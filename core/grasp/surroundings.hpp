@@ -14,7 +14,13 @@
 namespace graspd {
 
 /// What is known of a measured point.
-enum class Explained : std::uint8_t { unasked, no, yes };
+enum class Explained : std::uint8_t {
+  unasked,
+  yes,
+  no,     ///< Whether it is a speck was not asked.
+  speck,  ///< No: an error of the sensor (is_speck).
+  part,   ///< No, and it is no speck either.
+};
 
 /// What a grasp may collide with.
 struct GraspSurroundings {

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/grasp/cloud_visit.hpp"
+#include "core/grasp/hidden_places.hpp"
+#include "core/grasp/speck.hpp"
 
 namespace graspd {
 namespace {
@@ -46,6 +48,15 @@ bool lies_on_instance(const GraspSurroundings& around, const Vector3& point) {
   return false;
 }
 
+/// Whether a part may reach from a measured point to another place (camera frame) without being seen in between.
+bool goes_unseen(const HiddenPlaces& hidden, const Vector3& point, const Vector3& place) {
+  constexpr int steps = 3;
+  for (int i = 1; i <= steps; ++i) {
+    if (!hidden.hold(point + static_cast<float>(i) / steps * (place - point))) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool is_explained(const GraspSurroundings& around, std::size_t cell, const Vector3& point) {
@@ -56,18 +67,28 @@ bool is_explained(const GraspSurroundings& around, std::size_t cell, const Vecto
   return answer == Explained::yes;
 }
 
-bool nears_unexplained(const GraspSurroundings& around, const Sweep& sweep, const HeldPart& part, float clearance) {
+bool nears_unexplained(const GraspSurroundings& around, const Sweep& sweep, const HeldPart& part,
+                       const UnexplainedClearance& clearance) {
   const RigidTransform tool_from_camera = inverse(sweep.camera_from_tool);
+  const HiddenPlaces hidden(*around.hidden, around.walls);
   bool found = false;
   for (const GripperPiece& piece : sweep.gripper->all()) {
-    const Box box = grown(piece.box, clearance);
-    const Box bounds = swept_bounds(box, sweep.motion);
+    const Box close = grown(piece.box, clearance.any);
+    const Box far = grown(piece.box, std::max(clearance.any, clearance.unseen));
+    const Box swept = swept_bounds(piece.box, sweep.motion);
     const auto visit = [&](std::size_t cell, const Vector3& point) {
-      if (!sweeps_over(box, sweep.motion, point) || is_part(point, piece, *sweep.gripper, part)) return false;
-      found = !is_explained(around, cell, sweep.camera_from_tool * point);
+      if (!sweeps_over(far, sweep.motion, point) || is_part(point, piece, *sweep.gripper, part)) return false;
+      const Vector3 place = sweep.camera_from_tool * point;
+      if (is_explained(around, cell, place)) return false;
+      if (!sweeps_over(close, sweep.motion, point)) {
+        const Vector3 nearest = point.cwiseMax(swept.lower).cwiseMin(swept.upper);
+        if ((nearest - point).norm() >= clearance.unseen) return false;
+        if (!goes_unseen(hidden, place, sweep.camera_from_tool * nearest)) return false;
+      }
+      found = !is_speck(around, cell, place);
       return found;
     };
-    visit_points(*around.cloud, sweep.camera_from_tool, tool_from_camera, bounds, visit);
+    visit_points(*around.cloud, sweep.camera_from_tool, tool_from_camera, swept_bounds(far, sweep.motion), visit);
     if (found) break;
   }
   return found;

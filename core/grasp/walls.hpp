@@ -4,7 +4,8 @@
 #include <span>
 
 #include "core/bank/bank.hpp"
-#include "core/grasp/collision.hpp"
+#include "core/grasp/parameters.hpp"
+#include "core/grasp/sweep.hpp"
 
 namespace graspd {
 

@@ -156,6 +156,7 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(grasp.capacity.checks);
   GRASPD_COMPARE(grasp.capacity.cloud_cells);
   GRASPD_COMPARE(grasp.parameters.collision.unexplained_clearance);
+  GRASPD_COMPARE(grasp.parameters.collision.unseen_clearance);
   GRASPD_COMPARE(grasp.parameters.collision.hidden_clearance);
   GRASPD_COMPARE(grasp.parameters.collision.maximum_hidden);
   GRASPD_COMPARE(grasp.parameters.retreat.direction);

@@ -121,6 +121,17 @@ TEST_F(PlannerChecks, KeepsFurtherFromWhatIsNeitherAPartNorTheBin) {
   EXPECT_EQ(reason_of(choose()), GraspRejection::none) << "2 mm from a part that was found";
 }
 
+TEST_F(PlannerChecks, KeepsFurtherWhereAPartMayGoOnUnseen) {
+  part.grasps.resize(1);
+  add_block(0.0F, 0.0F, 0.585F);
+  add_obstacle(0.0425F, 0.0F, 0.585F);
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none) << "4.5 mm from it, and the floor was seen in between";
+  scene.boxes.push_back({shift(0.027F, 0.0F, 0.585F), Vector3(0.006F, 0.016F, 0.015F), true});
+  EXPECT_EQ(reason_of(choose()), GraspRejection::unseen) << "nothing was measured in between";
+  parameters.collision.unseen_clearance = 0.003F;
+  EXPECT_EQ(reason_of(choose()), GraspRejection::none);
+}
+
 TEST_F(PlannerChecks, JawsCatchNothingElseWhenTheyClose) {
   part.grasps = {{turn(Vector3::UnitX(), 3.14159265F), 0.070F, 1, 1, GraspKind::parallel, 0.070F, 0.030F}};
   add_block(0.0F, 0.0F, 0.585F);
