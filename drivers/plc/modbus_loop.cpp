@@ -202,6 +202,7 @@ void ModbusServer::Loop::receive(ModbusClientSlot& client, std::int64_t now_ns) 
       clients_.close(client);
       return;
     }
+    if (client.filled == 0) client.begun_ns = now_ns;
     client.filled += static_cast<std::size_t>(received);
     client.heard_ns = now_ns;
     serve_buffered(client, now_ns);
@@ -239,7 +240,7 @@ void ModbusServer::Loop::serve_buffered(ModbusClientSlot& client, std::int64_t n
     }
     used += frame.size;
     rate_.count(client, now_ns);
-    client.heard_ns = now_ns;
+    client.heard_ns = client.begun_ns = now_ns;
   }
   std::copy(client.buffer.begin() + static_cast<std::ptrdiff_t>(used),
             client.buffer.begin() + static_cast<std::ptrdiff_t>(client.filled), client.buffer.begin());
@@ -268,7 +269,7 @@ bool ModbusServer::Loop::serve(ModbusClientSlot& client, std::span<const std::ui
 
 void ModbusServer::Loop::drop_unfinished(std::int64_t now_ns) {
   for (ModbusClientSlot& client : clients_.slots()) {
-    if (!client.is_open() || client.filled == 0 || now_ns - client.heard_ns < unfinished_ns_) continue;
+    if (!client.is_open() || client.filled == 0 || now_ns - client.begun_ns < unfinished_ns_) continue;
     if (next_frame(std::span(client.buffer).first(client.filled)).state == FrameState::complete) continue;
     if (may_log(now_ns)) {
       log_event(LogLevel::warning, "W120", "client left a request unfinished: closed peer=%s", client.name.data());

@@ -48,6 +48,19 @@ TEST(ModbusRequests, ClosesAClientThatLeavesARequestUnfinished) {
   EXPECT_TRUE(raw.is_closed());
 }
 
+TEST(ModbusRequests, ClosesAClientThatDripsARequestByteByByte) {
+  ServerOptions options;
+  options.unfinished_time = 300ms;
+  const auto server = start_server(options);
+  RawClient raw(*server);
+  bool closed = false;
+  for (std::size_t i = 0; i + 1 < read_one_input.size() && !closed; ++i) {
+    raw.send_bytes({read_one_input[i]});
+    closed = raw.is_closed(60ms);
+  }
+  EXPECT_TRUE(closed);
+}
+
 TEST(ModbusRequests, AnswersBadRequestsWithExceptions) {
   const auto server = start_server();
   RawClient raw(*server);
