@@ -5,7 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <string>
 
 #define TOML_EXCEPTIONS 0
 #define TOML_ENABLE_FORMATTERS 0
@@ -99,9 +99,16 @@ Result<TomlValue> read_toml(const std::string& path) {
     return Status::format(StatusCode::bad_configuration, "%s: cannot be opened: %s; check the path", path.c_str(),
                           std::strerror(errno));
   }
-  std::ostringstream text;
-  text << file.rdbuf();
-  const toml::parse_result parsed = toml::parse(text.view(), std::string_view(path));
+  // What is no file may never end.
+  constexpr std::size_t most_bytes = std::size_t{1} << 20U;
+  std::string text(most_bytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > most_bytes) {
+    return Status::format(StatusCode::bad_configuration, "%s: is larger than 1 MiB: not a configuration or part file",
+                          path.c_str());
+  }
+  const toml::parse_result parsed = toml::parse(std::string_view(text), std::string_view(path));
   if (parsed.failed()) {
     const toml::parse_error& problem = parsed.error();
     return Status::format(StatusCode::bad_configuration, "%s:%d: not valid TOML: %.*s", path.c_str(),

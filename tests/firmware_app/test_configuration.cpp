@@ -57,6 +57,12 @@ TEST_F(ConfigurationFile, FolderInPlaceOfAFileIsNamed) {
   EXPECT_THAT(std::string(result.status().message()), EndsWith("is a folder, not a TOML file"));
 }
 
+TEST_F(ConfigurationFile, FileWithoutEndIsRefused) {
+  const Result<Configuration> result = read_configuration("/dev/zero");
+  EXPECT_EQ(result.status().code(), StatusCode::bad_configuration);
+  EXPECT_THAT(std::string(result.status().message()), HasSubstr("larger than 1 MiB"));
+}
+
 TEST_F(ConfigurationFile, MalformedTomlNamesTheLine) {
   EXPECT_THAT(complaint("banks = [\"a\"]\n[camera\nsource = 1\n"), StartsWith("graspd.toml:2: not valid TOML: "));
 }
