@@ -110,7 +110,7 @@ void read_tile(const CloudMap& map, int column, int row) {
 
 void read_whole(const CloudMap& map) {
   for (int row = 0; row < map.camera.height / CloudMap::tile_size; ++row) {
-    for (int column = 0; column < map.tile_columns; ++column) static_cast<void>(tile_bounds(map, column, row));
+    for (int column = 0; column < map.tile_columns; ++column) read_tile_once(map, column, row);
   }
 }
 

@@ -43,11 +43,15 @@ void begin_cloud_map(const DepthFrame& frame, float spacing, float reference_dep
 /// Reads one tile, in column `column` and row `row` of the tiles.
 void read_tile(const CloudMap& map, int column, int row);
 
+/// Reads one tile if it was not read yet.
+inline void read_tile_once(const CloudMap& map, int column, int row) {
+  if (map.known[tile_number(map, column, row)] == 0) read_tile(map, column, row);
+}
+
 /// The bounds of a tile, which is read before if it was not yet.
 [[nodiscard]] inline const Box& tile_bounds(const CloudMap& map, int column, int row) {
-  const std::size_t tile = tile_number(map, column, row);
-  if (map.known[tile] == 0) read_tile(map, column, row);
-  return map.tiles[tile];
+  read_tile_once(map, column, row);
+  return map.tiles[tile_number(map, column, row)];
 }
 
 /// Reads all tiles.

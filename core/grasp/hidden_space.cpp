@@ -39,7 +39,7 @@ TileRange tiles_of(const HiddenSpace& space, const CellRange& range) {
 
 /// Makes a tile as if there were no instances.
 void begin_tile(const HiddenSpace& space, int column, int row) {
-  static_cast<void>(tile_bounds(*space.map, column, row));
+  read_tile_once(*space.map, column, row);
   constexpr int size = HiddenSpace::tile_size;
   for (int v = row * size; v < (row + 1) * size; ++v) {
     for (int u = column * size; u < (column + 1) * size; ++u) {

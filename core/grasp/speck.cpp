@@ -60,7 +60,7 @@ std::size_t cells_allowed(const GraspSurroundings& around, float depth) {
 }
 
 float depth_of(const CloudMap& map, const Cell& cell) {
-  static_cast<void>(tile_bounds(map, cell.u / CloudMap::tile_size, cell.v / CloudMap::tile_size));
+  read_tile_once(map, cell.u / CloudMap::tile_size, cell.v / CloudMap::tile_size);
   return map.depth[map.camera.index(cell.u, cell.v)];
 }
 
