@@ -91,7 +91,7 @@ struct VisibilityTable {
   [[nodiscard]] std::span<const std::uint64_t> row(const Vector3& towards_sensor) const;
 };
 
-/// A bank as the pipeline reads it: spans into one mapped file or memory block.
+/// A bank as the pipeline reads it: spans into the bytes of its file.
 struct Bank {
   const BankPart* part = nullptr;
   PpfGrid grid;

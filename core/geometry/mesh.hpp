@@ -11,7 +11,7 @@ namespace graspd {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// A triangle mesh that somebody else owns: what rendering reads (a mapped bank, or a Mesh).
+/// A triangle mesh that somebody else owns: what rendering reads (a bank, or a Mesh).
 struct MeshView {
   std::span<const Vector3> vertices;    ///< Metres, part frame.
   std::span<const Triangle> triangles;  ///< Counter-clockwise seen from outside.
