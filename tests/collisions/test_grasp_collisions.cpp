@@ -104,7 +104,13 @@ class Truth {
   BinWalls walls_;
 };
 
-/// Whether any grasp of any part is free, with any opening: what a planner that knows everything could do.
+/// Where a part is carried that was picked, camera frame.
+Vector3 way_out(const PileScene& scene, const RigidTransform& camera_from_tool) {
+  return -scene.parameters.retreat.distance * camera_from_tool.rotation.col(2);
+}
+
+/// Whether any grasp of any part is free, with any opening, and its part comes out: what a planner that knows
+/// everything could do.
 bool any_free_grasp(const HeldShape& part, const PileScene& scene, const Truth& truth) {
   const Bank bank = part.bank();
   const RigidTransform camera_from_robot = inverse(scene.parameters.robot_from_camera);
@@ -117,8 +123,10 @@ bool any_free_grasp(const HeldShape& part, const PileScene& scene, const Truth& 
       const Tool& tool = scene.parameters.tools.tools[candidate.tool];
       const Openings openings = openings_of(tool, part.grasps[candidate.grasp]);
       for (std::size_t i = 0; i < openings.count; ++i) {
-        if (truth.is_free(tool, part.grasps[candidate.grasp], openings.widths[i],
-                          camera_from_robot * candidate.robot_from_tool, instance.camera_from_part)) {
+        const RigidTransform camera_from_tool = camera_from_robot * candidate.robot_from_tool;
+        if (truth.is_free(tool, part.grasps[candidate.grasp], openings.widths[i], camera_from_tool,
+                          instance.camera_from_part) &&
+            !truth.scrapes(instance.camera_from_part, way_out(scene, camera_from_tool), tool.contact_margin)) {
           return true;
         }
       }
@@ -136,7 +144,28 @@ struct Tally {
   int picks = 0;
   int collisions = 0;
   int scrapes = 0;  ///< Picks whose part comes deeper into the bin than it may on its way out.
+
+  Tally& operator+=(const Tally& other) {
+    frames += other.frames;
+    graspable += other.graspable;
+    answered += other.answered;
+    first_picks += other.first_picks;
+    first_collisions += other.first_collisions;
+    picks += other.picks;
+    collisions += other.collisions;
+    scrapes += other.scrapes;
+    return *this;
+  }
 };
+
+void print(const char* piles, const Tally& tally) {
+  std::printf(
+      "%s: %d frames, %d with a free grasp, %d of them answered; %d first picks, %d collide; %d picks, %d collide, "
+      "with "
+      "%d the part touches the bin\n",
+      piles, tally.frames, tally.graspable, tally.answered, tally.first_picks, tally.first_collisions, tally.picks,
+      tally.collisions, tally.scrapes);
+}
 
 void try_pile(const HeldShape& part, PileScene& scene, GraspWorkspace& workspace, Tally& tally) {
   const Bank bank = part.bank();
@@ -149,17 +178,13 @@ void try_pile(const HeldShape& part, PileScene& scene, GraspWorkspace& workspace
   for (std::size_t i = 0; i < result.picks.size(); ++i) {
     const Pick& pick = result.picks[i];
     const PartGrasp& grasp = part.grasps[pick.grasp - 1];
-    const bool free =
-        truth.is_free(scene.parameters.tools.tools[0], grasp, pick.opening, camera_from_robot * pick.robot_from_tool,
-                      scene.detected[pick.instance].camera_from_part);
+    const Tool& tool = scene.parameters.tools.tools[0];
+    const RigidTransform& held = scene.detected[pick.instance].camera_from_part;
+    const RigidTransform camera_from_tool = camera_from_robot * pick.robot_from_tool;
+    const bool free = truth.is_free(tool, grasp, pick.opening, camera_from_tool, held);
     ++tally.picks;
     tally.collisions += free ? 0 : 1;
-    const Vector3 way_out =
-        -scene.parameters.retreat.distance * (camera_from_robot.rotation * pick.robot_from_tool.rotation.col(2));
-    tally.scrapes += truth.scrapes(scene.detected[pick.instance].camera_from_part, way_out,
-                                   scene.parameters.tools.tools[0].contact_margin)
-                         ? 1
-                         : 0;
+    tally.scrapes += truth.scrapes(held, way_out(scene, camera_from_tool), tool.contact_margin) ? 1 : 0;
     tally.first_picks += i == 0 ? 1 : 0;
     tally.first_collisions += i == 0 && !free ? 1 : 0;
   }
@@ -173,20 +198,21 @@ Tally try_piles(std::uint64_t first, std::uint64_t count, std::span<const Camera
   const std::vector<HeldShape> parts{held_block(), held_bar(), held_bracket()};
   const PileBin bin{0.110F, 0.090F};
   GraspMemory memory;
-  Tally tally;
+  std::array<Tally, 3> by_strain;
   for (const HeldShape& part : parts) {
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
       const auto strain = static_cast<SensorStrain>(seed % 3);
       const Camera& camera = cameras[(seed / 3) % cameras.size()];
       PileScene scene = pile_scene(part, 6 + 2 * (seed % 6), bin, camera, strain, seed);
-      try_pile(part, scene, memory.workspace, tally);
+      try_pile(part, scene, memory.workspace, by_strain[seed % 3]);
     }
   }
-  std::printf(
-      "%d frames, %d with a free grasp, %d of them answered; %d first picks, %d collide; %d picks, %d collide, with %d "
-      "the part touches the bin\n",
-      tally.frames, tally.graspable, tally.answered, tally.first_picks, tally.first_collisions, tally.picks,
-      tally.collisions, tally.scrapes);
+  print("a tenth of the surface missing", by_strain[0]);
+  print("a third", by_strain[1]);
+  print("half", by_strain[2]);
+  Tally tally;
+  for (const Tally& some : by_strain) tally += some;
+  print("all", tally);
   return tally;
 }
 
