@@ -26,6 +26,12 @@ inline constexpr std::size_t lane_count = 4;
 
 [[nodiscard]] inline Lanes larger(const Lanes& a, const Lanes& b) { return a < b ? b : a; }
 
+[[nodiscard]] inline float largest_lane(const Lanes& a) {
+  const float first = a[0] < a[1] ? a[1] : a[0];
+  const float second = a[2] < a[3] ? a[3] : a[2];
+  return first < second ? second : first;
+}
+
 [[nodiscard]] inline Lanes square_root(const Lanes& a) {
   Lanes root;
   for (std::size_t i = 0; i < lane_count; ++i) root[i] = std::sqrt(a[i]);

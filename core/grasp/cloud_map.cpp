@@ -1,9 +1,10 @@
 #include "core/grasp/cloud_map.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+
+#include "core/geometry/lanes.hpp"
 
 namespace graspd {
 namespace {
@@ -27,6 +28,15 @@ int smallest_step(const Camera& camera, std::size_t cells) {
   return step;
 }
 
+/// The depth of the first corner of a cell that was measured, between two columns of its first and its last row; 0:
+/// none.
+float corner_depth(const float* first, const float* last, int left, int right) {
+  for (const float* const corner : {first + left, first + right, last + left, last + right}) {
+    if (*corner > 0.0F) return *corner;
+  }
+  return 0.0F;
+}
+
 /// Depths of the cells of a tile's row; `left` and `top` are pixels.
 void read_row(const DepthFrame& frame, int left, int top, int step, float* row) {
   const Camera& camera = frame.camera;
@@ -38,24 +48,23 @@ void read_row(const DepthFrame& frame, int left, int top, int step, float* row) 
   const float* const middle = first + std::min(step / 2, rows - 1) * camera.width;
   for (int i = 0; i < CloudMap::tile_size && left < camera.width; ++i, left += step) {
     const int right = std::min(left + step, camera.width) - 1;
-    for (const float depth :
-         {middle[std::min(left + step / 2, right)], first[left], first[right], last[left], last[right]}) {
-      if (!(depth > 0.0F)) continue;
-      row[i] = depth;
-      break;
-    }
+    const float depth = middle[std::min(left + step / 2, right)];
+    row[i] = depth > 0.0F ? depth : corner_depth(first, last, left, right);
   }
 }
 
 /// Makes room for the points of a tile's row, which begins at cell (first, v), in the bounds of the tile.
 void add_row(const Camera& camera, const float* row, int first, int v, Box& bounds) {
-  float near = unbounded;
-  float far = -unbounded;
-  for (int i = 0; i < CloudMap::tile_size; ++i) {
-    const bool measured = row[i] > 0.0F;
-    near = std::min(near, measured ? row[i] : unbounded);
-    far = std::max(far, measured ? row[i] : -unbounded);
+  const Lanes unmeasured = Lanes{} - unbounded;
+  Lanes furthest = unmeasured;
+  Lanes nearest = unmeasured;  // Negative, so that the largest is the nearest.
+  for (std::size_t i = 0; i < CloudMap::tile_size; i += lane_count) {
+    const Lanes depths = load_lanes(row + i);
+    furthest = larger(furthest, depths > 0.0F ? depths : unmeasured);
+    nearest = larger(nearest, depths > 0.0F ? -depths : unmeasured);
   }
+  const float near = -largest_lane(nearest);
+  const float far = largest_lane(furthest);
   if (near > far) return;
   // Each coordinate is a ray times a depth: its extremes lie at the ends of both.
   const float y = (static_cast<float>(v) - camera.cy) / camera.fy;
