@@ -4,6 +4,24 @@
 #include <limits>
 
 namespace graspd {
+namespace {
+
+/// What is left of a wall when its faces give way by `forgiven`. A thin wall reaches further to the outside than it
+/// does: nothing else passes there either.
+Box less_forgiven(const Box& wall, const Box& inside, float forgiven) {
+  constexpr float least_depth = 0.010F;
+  Box less = grown(wall, -forgiven);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (wall.lower[axis] >= inside.upper[axis]) {
+      less.upper[axis] = std::max(less.upper[axis], less.lower[axis] + least_depth);
+    } else if (wall.upper[axis] <= inside.lower[axis]) {
+      less.lower[axis] = std::min(less.lower[axis], less.upper[axis] - least_depth);
+    }
+  }
+  return less;
+}
+
+}  // namespace
 
 BinWalls bin_walls(const BinParameters& bin, const Vector3& up, const RigidTransform& camera_from_robot) {
   BinWalls result;
@@ -12,7 +30,6 @@ BinWalls bin_walls(const BinParameters& bin, const Vector3& up, const RigidTrans
   result.bin_from_camera = inverse(result.camera_from_bin);
   const Vector3 half = 0.5F * bin.inner_size;
   const Vector3 outer = half + Vector3::Constant(bin.wall);
-  result.thickness = bin.wall;
   const bool z_is_up = bin.opens_along_z(up);
   constexpr float open = std::numeric_limits<float>::infinity();
   result.inside = {Vector3(-half.x(), -half.y(), z_is_up ? -half.z() : -open),
@@ -59,8 +76,7 @@ bool carried_meets_walls(const BinWalls& walls, const RigidTransform& camera_fro
     return sweep_meets_box(bounds, way_of_part, part_from_bin, wall);
   });
   if (far_off) return false;
-  const float forgiven = std::min(tolerance, 0.4F * walls.thickness);
-  const Box free = grown(walls.inside, forgiven);
+  const Box free = grown(walls.inside, tolerance);
   const auto stays_free = [&](const Vector3& point) {
     const Vector3 start = bin_from_part * point;
     return free.contains(start) && free.contains(start + way);
@@ -73,7 +89,7 @@ bool carried_meets_walls(const BinWalls& walls, const RigidTransform& camera_fro
     const Vector3 start = bin_from_part * point;
     return std::any_of(walls.all().begin(), walls.all().end(), [&](const Box& wall) {
       // The point moves, the wall stands still: as if the wall came towards the point.
-      return sweeps_over(grown(wall, -forgiven), -way, start);
+      return sweeps_over(less_forgiven(wall, walls.inside, tolerance), -way, start);
     });
   };
   return std::any_of(corners.begin(), corners.end(), meets) ||

@@ -16,7 +16,6 @@ struct BinWalls {
   std::array<Box, 5> walls;
   std::size_t count = 0;  ///< 0: there is no bin.
   Box inside;             ///< Between them, without a lid; meaningful only when there is a bin.
-  float thickness = 0;
 
   [[nodiscard]] std::span<const Box> all() const { return {walls.data(), count}; }
 };

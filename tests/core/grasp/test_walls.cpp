@@ -41,6 +41,18 @@ TEST_F(CarriedPart, MayLeanOnAWallAsFarAsItsPoseMayBeOff) {
   EXPECT_TRUE(meets(-0.0025F, 0.0F, up)) << "only a corner is inside the wall";
 }
 
+TEST_F(CarriedPart, MayLeanOnAThinWallAsWell) {
+  bin.wall = 0.001F;
+  walls = bin_walls(bin, Vector3::UnitZ(), {});
+  const Vector3 up(0.0F, 0.0F, 0.1F);
+  EXPECT_FALSE(meets(-0.0015F, 0.0F, up));
+  EXPECT_TRUE(meets(-0.0025F, 0.0F, up));
+  EXPECT_TRUE(meets(-0.0080F, 0.0F, up)) << "through the wall";
+  const RigidTransform on_floor{Matrix3::Identity(), Vector3(0.0F, 0.0F, -0.05F + 0.010F - 0.0015F)};
+  EXPECT_FALSE(carried_meets_walls(walls, on_floor, bank, up, 0.002F));
+  EXPECT_TRUE(carried_meets_walls(walls, on_floor, bank, Vector3(0.0F, 0.0F, -0.001F), 0.002F));
+}
+
 TEST_F(CarriedPart, MustNotComeIntoAWallOnItsWay) {
   EXPECT_FALSE(meets(0.010F, 0.0F, Vector3(0.0F, 0.0115F, 0.02F)));
   EXPECT_TRUE(meets(0.010F, 0.0F, Vector3(0.0F, 0.0125F, 0.02F)));
