@@ -52,13 +52,15 @@ RigidTransform first_turn(const RigidTransform& robot_from_part, const PartGrasp
   return nearest_symmetric(robot_from_part, part_as_preferred, {identity, true, axis});
 }
 
-/// The candidate for one symmetric pose of the part, with the figures that need no frame.
+/// The candidate for one symmetric pose of the part and one turn of the tool from that which is nearest to the
+/// preferred one, with the figures that need no frame.
 GraspCandidate candidate_at(const RigidTransform& robot_from_part, const PartGrasp& grasp, const Tool& tool,
-                            const GraspTarget& target, float cos_tilt, const RigidTransform& preferred,
-                            const GraspParameters& parameters) {
+                            float tool_angle, const GraspTarget& target, float cos_tilt,
+                            const RigidTransform& preferred, const GraspParameters& parameters) {
   GraspCandidate candidate;
   candidate.robot_from_part = robot_from_part;
   candidate.robot_from_tool = nearest_symmetric(robot_from_part * grasp.part_from_tool, preferred, tool_symmetry(tool));
+  candidate.robot_from_tool.rotation *= Eigen::AngleAxisf(tool_angle, Vector3::UnitZ()).toRotationMatrix();
   candidate.tilt = std::acos(std::clamp(cos_tilt, -1.0F, 1.0F));
   candidate.turn = rotation_angle(preferred.rotation.transpose() * candidate.robot_from_tool.rotation);
   const float most = parameters.collision.clearance_range;
@@ -132,9 +134,18 @@ GraspRejection grasp_candidates(const Bank& bank, const GraspTarget& target, con
   const float least_cosine = std::cos(parameters.maximum_tilt);
   const bool continuous = bank.part->symmetry_continuous != 0;
   const std::uint32_t steps = continuous ? std::max<std::uint32_t>(parameters.symmetry_steps, 1) : 1;
-  const float step_angle = 2.0F * std::numbers::pi_v<float> / static_cast<float>(steps);
+  constexpr float whole_turn = 2.0F * std::numbers::pi_v<float>;
+  const float step_angle = whole_turn / static_cast<float>(steps);
   GraspRejection reason = GraspRejection::no_grasp;
   candidates.clear();
+  const auto take = [&](const GraspCandidate& candidate) {
+    const GraspRejection rejection = test_place(candidate, parameters, avoided);
+    reason = furthest(reason, rejection);
+    const bool known = std::any_of(candidates.begin(), candidates.end(), [&](const GraspCandidate& other) {
+      return other.grasp == candidate.grasp && same_pose(other.robot_from_tool, candidate.robot_from_tool);
+    });
+    if (rejection == GraspRejection::none && !known) keep_best(candidate, candidates);
+  };
 
   for (std::uint32_t g = 0; g < bank.grasps.size(); ++g) {
     const PartGrasp& grasp = bank.grasps[g];
@@ -144,6 +155,8 @@ GraspRejection grasp_candidates(const Bank& bank, const GraspTarget& target, con
       reason = furthest(reason, rejection);
       continue;
     }
+    const std::uint32_t tool_turns = distinct_tool_turns(parameters.tools.tools[tool], parameters.symmetry_steps);
+    const float tool_turn_angle = whole_turn / static_cast<float>(tool_turns);
     for (std::uint32_t d = 0; d < bank.symmetry_discrete.size(); ++d) {
       const RigidTransform symmetric = target.robot_from_part * bank.symmetry_discrete[d];
       const RigidTransform first =
@@ -156,18 +169,15 @@ GraspRejection grasp_candidates(const Bank& bank, const GraspTarget& target, con
           reason = furthest(reason, GraspRejection::tilt);
           continue;
         }
-        GraspCandidate candidate =
-            candidate_at(turned, grasp, parameters.tools.tools[tool], target, cosine, preferred, parameters);
-        candidate.grasp = g;
-        candidate.tool = tool;
-        candidate.member = d * steps + step;
-        rejection = test_place(candidate, parameters, avoided);
-        reason = furthest(reason, rejection);
-        if (rejection != GraspRejection::none) continue;
-        const bool known = std::any_of(candidates.begin(), candidates.end(), [&](const GraspCandidate& other) {
-          return other.grasp == g && same_pose(other.robot_from_tool, candidate.robot_from_tool);
-        });
-        if (!known) keep_best(candidate, candidates);
+        for (std::uint32_t turn = 0; turn < tool_turns; ++turn) {
+          GraspCandidate candidate =
+              candidate_at(turned, grasp, parameters.tools.tools[tool], tool_turn_angle * static_cast<float>(turn),
+                           target, cosine, preferred, parameters);
+          candidate.grasp = g;
+          candidate.tool = tool;
+          candidate.member = (d * steps + step) * tool_turns + turn;
+          take(candidate);
+        }
       }
     }
   }

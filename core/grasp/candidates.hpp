@@ -19,7 +19,7 @@ struct GraspCandidate {
   float value = 0;                 ///< Its rank if nothing were near: no clearance can lift it above.
   std::uint32_t grasp = 0;         ///< Index into Bank::grasps.
   std::uint32_t tool = 0;          ///< Index into ToolSet::tools.
-  std::uint32_t member = 0;        ///< Number of the symmetric pose.
+  std::uint32_t member = 0;        ///< Number of the symmetric pose and of the tool's turn.
 };
 
 /// An instance as the choice looks at it.
@@ -52,9 +52,10 @@ struct GraspTarget {
 /// Fills `candidates` with the grasps of an instance, highest value first: each grasp of the part at each of the
 /// part's discrete symmetric poses; with continuous symmetry at GraspParameters::symmetry_steps even turns, the first
 /// of them where the tool leans least; and with the turn of the tool (tool_symmetry) nearest to the preferred
-/// orientation. Equal grasps are given once. Tool, opening, tilt, reach and `avoided` places are tested here. When more
-/// are left than fit, those of lowest value are dropped and counted. Returns the reason of the grasp that came
-/// furthest; `none` when any passed.
+/// orientation, or, when a box sticks out on one side of the tool, with all of distinct_tool_turns from there. Equal
+/// grasps are given once. Tool, opening, tilt, reach and `avoided` places are tested here. When more are left than fit,
+/// those of lowest value are dropped and counted. Returns the reason of the grasp that came furthest; `none` when any
+/// passed.
 GraspRejection grasp_candidates(const Bank& bank, const GraspTarget& target, const GraspParameters& parameters,
                                 std::span<const AvoidedPlace> avoided, FixedVector<GraspCandidate>& candidates);
 

@@ -97,4 +97,10 @@ Symmetry tool_symmetry(const Tool& tool) {
   return {all.first(1), true, {}};
 }
 
+std::uint32_t distinct_tool_turns(const Tool& tool, std::uint32_t steps) {
+  if (tool.box_count == 0) return 1;
+  if (tool.kind == GraspKind::parallel) return tool.half_turn ? 2 : 1;
+  return std::max<std::uint32_t>(steps, 1);
+}
+
 }  // namespace graspd

@@ -79,4 +79,8 @@ struct Openings {
 /// exchanged, any turn for a cup. Transforms are tool_from_tool and live as long as the program.
 [[nodiscard]] Symmetry tool_symmetry(const Tool& tool);
 
+/// Of these turns, so many evenly spread ones need other room: 1 when nothing sticks out on one side alone. A tool that
+/// may be turned anyhow is turned in `steps` steps.
+[[nodiscard]] std::uint32_t distinct_tool_turns(const Tool& tool, std::uint32_t steps);
+
 }  // namespace graspd

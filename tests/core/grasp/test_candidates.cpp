@@ -86,6 +86,28 @@ TEST_F(Candidates, JawsAreExchangedTowardsThePreferredOrientation) {
   EXPECT_NEAR(candidates[0].turn, 2.8F, 1e-3F);
 }
 
+TEST_F(Candidates, ToolWithABoxOnOneSideIsTurned) {
+  ASSERT_EQ(fill(), GraspRejection::none);
+  ASSERT_EQ(candidates.size(), 1U);
+  Tool& jaws = parameters.tools.tools[0];
+  jaws.boxes[jaws.box_count++] = {Vector3(0.060F, -0.020F, -0.100F), Vector3(0.100F, 0.020F, -0.060F)};
+  ASSERT_EQ(fill(), GraspRejection::none);
+  ASSERT_EQ(candidates.size(), 2U);
+  EXPECT_NEAR(candidates[0].turn, 0.0F, 1e-3F);
+  EXPECT_NEAR(candidates[1].turn, pi, 1e-3F);
+  EXPECT_LT((candidates[0].robot_from_tool.translation - candidates[1].robot_from_tool.translation).norm(), 1e-6F);
+  jaws.half_turn = false;
+  ASSERT_EQ(fill(), GraspRejection::none);
+  EXPECT_EQ(candidates.size(), 1U);
+
+  part.grasps[0].opening = 0.0F;
+  part.grasps[0].kind = GraspKind::suction;
+  Tool& cup = parameters.tools.tools[1];
+  cup.boxes[cup.box_count++] = jaws.boxes[0];
+  ASSERT_EQ(fill(), GraspRejection::none);
+  EXPECT_EQ(candidates.size(), parameters.symmetry_steps);
+}
+
 TEST_F(Candidates, CupTurnsFreely) {
   part.grasps[0].opening = 0.0F;
   part.grasps[0].kind = GraspKind::suction;
