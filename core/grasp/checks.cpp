@@ -1,6 +1,7 @@
 #include "core/grasp/checks.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/grasp/collision.hpp"
 #include "core/grasp/hidden_part.hpp"
@@ -94,6 +95,11 @@ GraspRejection test_unrecognised(const Attempt& attempt, const Gripper& gripper,
                                  GraspCheck& check) {
   if (!frame_shows_grip(attempt, gripper)) return GraspRejection::unseen;
   const CollisionParameters& collision = attempt.parameters.collision;
+  const auto nears = [&](const UnexplainedClearance& clearance) {
+    return std::max(clearance.any, clearance.unseen) > 0.0F &&
+           nears_unexplained(attempt.around, sweep, attempt.part, clearance);
+  };
+  if (nears({collision.unexplained_clearance, 0.0F})) return GraspRejection::collision;
   const float most = std::min(collision.maximum_hidden, hidden_part_share_at(useful, collision));
   const float share = hidden_share(attempt, gripper, most);
   check.beaten = share > most && most < collision.maximum_hidden;
@@ -101,11 +107,7 @@ GraspRejection test_unrecognised(const Attempt& attempt, const Gripper& gripper,
   if (share > most) return GraspRejection::unseen;
   check.hidden = hidden_part_clearance(share, collision);
   const UnexplainedClearance clearance{collision.unexplained_clearance + check.hidden, collision.unseen_clearance};
-  if (std::max(clearance.any, clearance.unseen) <= 0.0F ||
-      !nears_unexplained(attempt.around, sweep, attempt.part, clearance)) {
-    return GraspRejection::none;
-  }
-  return check.hidden > 0.0F ? GraspRejection::unseen : GraspRejection::collision;
+  return nears(clearance) ? GraspRejection::unseen : GraspRejection::none;
 }
 
 /// The first test that fails with the jaws this far open.
@@ -144,12 +146,16 @@ GraspCheck check_grasp(const GraspSurroundings& around, std::size_t instance, co
   const Openings openings = openings_of(tool, grasp);
   const float useful =
       hidden_allowed(candidate.value, needed, parameters.weights, parameters.collision.clearance_range);
+  constexpr float unbounded = std::numeric_limits<float>::infinity();
   GraspCheck check{GraspRejection::opening, 0.0F, 0.0F, 0.0F, false};
   for (std::size_t i = 0; i < openings.count; ++i) {
     const float opening = openings.widths[i];
     const Gripper gripper = open_gripper(tool, opening);
     const Sweep sweep = way_in(attempt, gripper);
-    const GraspRejection rejection = test_opening(attempt, gripper, sweep, opening, useful, check);
+    // The next opening may need less that nobody has seen.
+    const bool is_last = i + 1 == openings.count;
+    const GraspRejection rejection =
+        test_opening(attempt, gripper, sweep, opening, is_last ? useful : unbounded, check);
     if (check.beaten) break;
     if (furthest(check.reason, rejection) == rejection) {
       check.reason = rejection;

@@ -1,3 +1,4 @@
+#include "core/grasp/checks.hpp"
 #include "core/grasp/walls.hpp"
 #include "tests/core/grasp/planner_fixture.hpp"
 
@@ -130,6 +131,30 @@ TEST_F(PlannerChecks, KeepsFurtherWhereAPartMayGoOnUnseen) {
   EXPECT_EQ(reason_of(choose()), GraspRejection::unseen) << "nothing was measured in between";
   parameters.collision.unseen_clearance = 0.003F;
   EXPECT_EQ(reason_of(choose()), GraspRejection::none);
+}
+
+TEST_F(PlannerChecks, JawsThatOpenLessMayStayOutOfWhatNobodyHasSeen) {
+  part.grasps = {{turn(Vector3::UnitX(), 3.14159265F), 0.070F, 1, 1, GraspKind::parallel, 0.036F, 0.030F}};
+  add_block(0.0F, 0.0F, 0.585F);
+  scene.boxes.push_back({shift(0.080F, 0.0F, 0.585F), Vector3(0.040F, 0.060F, 0.015F), true});
+  frame = scene.render();
+  const Bank bank = part.bank();
+  Detections detections;
+  detections.instances = instances;
+  GraspWorkspace& workspace = grasp_memory.workspace;
+  ASSERT_TRUE(choose_pick(frame, detections, {&bank, 1}, parameters, workspace).found);
+  const GraspCandidate& candidate = workspace.candidates[0];
+  const auto check = [&](float needed) {
+    return check_grasp(workspace.choice.around, 0, candidate, parameters, needed);
+  };
+  const GraspCheck any = check(-1e9F);
+  ASSERT_EQ(any.reason, GraspRejection::none);
+  ASSERT_LT(any.opening, 0.060F) << "further apart a jaw goes where a part may hide";
+  ASSERT_EQ(any.hidden, 0.0F);
+  const GraspCheck better = check(candidate.value - 0.001F);
+  EXPECT_FALSE(better.beaten);
+  EXPECT_EQ(better.reason, GraspRejection::none);
+  EXPECT_EQ(better.opening, any.opening);
 }
 
 TEST_F(PlannerChecks, JawsCatchNothingElseWhenTheyClose) {

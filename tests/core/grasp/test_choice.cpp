@@ -25,6 +25,10 @@ struct GraspChoiceTest : Planner {
     RigidTransform lower = part.grasps[0].part_from_tool;
     lower.translation.y() = 0.015F;
     part.grasps.push_back({lower, 0.036F, 1, 3});
+    for (PartGrasp& grasp : part.grasps) {
+      grasp.least_opening = grasp.opening - 0.004F;
+      grasp.opening += 0.012F;
+    }
     parameters.collision.maximum_hidden = 0.1F;
   }
   void lay_pile(std::uint32_t seed) {
