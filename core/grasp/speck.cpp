@@ -84,7 +84,9 @@ bool stands_alone(const GraspSurroundings& around, const Cell& first) {
       const Cell cell{middle.u + neighbour % 3 - 1, middle.v + neighbour / 3 - 1};
       if (!map.camera.contains(cell.u, cell.v)) return false;
       const float beside = depth_of(map, cell);
-      if (beside > 0.0F && is_explained_at(around, cell, beside)) continue;
+      // Behind what stands in front of it a part may go on.
+      const bool hides_more = beside < depth - same_patch;
+      if (beside > 0.0F && !hides_more && is_explained_at(around, cell, beside)) continue;
       const bool goes_on = beside > 0.0F && std::abs(beside - depth) <= same_patch;
       if (goes_on ? !patch.add(cell, most) : !gap.add(cell, most_cells)) return false;
     }

@@ -1,3 +1,4 @@
+#include "core/grasp/speck.hpp"
 #include "tests/core/grasp/planner_fixture.hpp"
 
 namespace graspd {
@@ -59,6 +60,28 @@ TEST_F(Speck, HasNothingUnknownAroundIt) {
   frame = scene.render();
   patch(3, 0.560F);
   EXPECT_EQ(reason(), GraspRejection::collision) << "nothing explains the floor";
+}
+
+TEST_F(Speck, StandsNotBehindWhatMayHideMoreOfIt) {
+  const Camera& camera = frame.camera;
+  const int middle_u = static_cast<int>(std::lround(camera.cx));
+  const int middle_v = static_cast<int>(std::lround(camera.cy));
+  const auto speck_on_block = [&](float depth) {
+    for (int i = 0; i < 9; ++i) {
+      frame.depth[camera.index(middle_u - 1 + i % 3, middle_v - 1 + i / 3)] = depth;
+    }
+    const Bank bank = part.bank();
+    Detections detections;
+    detections.instances = instances;
+    begin_choice(frame, detections, {&bank, 1}, parameters, grasp_memory.workspace);
+    const GraspSurroundings& around = grasp_memory.workspace.choice.around;
+    EXPECT_EQ(around.cloud->step, 1);
+    const auto u = static_cast<float>(middle_u);
+    const auto v = static_cast<float>(middle_v);
+    return is_speck(around, around.cloud->camera.index(middle_u, middle_v), camera.point(u, v, depth));
+  };
+  EXPECT_TRUE(speck_on_block(0.540F)) << "in front of the block";
+  EXPECT_FALSE(speck_on_block(0.650F)) << "seen through a gap in it";
 }
 
 TEST_F(Speck, MayHaveAGapOfAFewCells) {
