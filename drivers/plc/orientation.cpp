@@ -98,12 +98,13 @@ Matrix3 rotation_from_values(const std::array<double, 4>& values, PoseConvention
     case PoseConvention::rotation_vector: {
       const Eigen::Vector3d vector(a, b, c);
       const double angle = vector.norm();
-      if (angle > 0) r = about(vector / angle, angle);
+      // What is no number must not pass for no turn.
+      if (angle != 0) r = about(vector / angle, angle);
       break;
     }
     case PoseConvention::quaternion: {
       const Eigen::Quaterniond q(a, b, c, d);
-      if (q.norm() > 0) r = q.normalized().toRotationMatrix();
+      if (q.norm() != 0) r = q.normalized().toRotationMatrix();
       break;
     }
     case PoseConvention::zyx_euler:

@@ -1,8 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
+#include "drivers/plc/register_map.hpp"
+#include "drivers/plc/request_words.hpp"
 #include "firmware_app/request_resolution.hpp"
 #include "tests/firmware_app/pick_cycle_fixture.hpp"
 
@@ -115,6 +119,24 @@ TEST(PickRequests, RequestsThatMeanNothingAreBadRequests) {
   EXPECT_THAT(message(flange), HasSubstr("flange_pose in the request is no pose"));
   flange.robot_from_flange = {2.0F * Matrix3::Identity(), Vector3::Zero()};
   EXPECT_THAT(message(flange), HasSubstr("flange_pose in the request is no pose"));
+  EXPECT_EQ(fixture.source.sequence, 0U) << "no frame is taken for any of them";
+}
+
+TEST(PickRequests, FlangePoseThatIsNoNumberIsABadRequest) {
+  PickCycleFixture fixture(angle_bar_scene());
+  fixture.cycle.settings.camera_on_flange = true;
+  constexpr std::array<std::uint16_t, 2> no_number{0x7FC0, 0x0000};
+  for (std::uint16_t convention = 1; convention <= pose_convention_count; ++convention) {
+    for (std::size_t value = 0; value < 6; ++value) {
+      std::array<std::uint16_t, request_register::count> words{};
+      words[request_register::pose_convention] = convention;
+      words[request_register::options] = request_option::flange_pose_given;
+      std::ranges::copy(no_number, words.begin() + request_register::flange_pose + 2 * value);
+      const Answer answer = fixture.ask(read_request(words, BlockFormat{}));
+      EXPECT_EQ(answer.block.code, ResultCode::bad_request) << convention << ", " << value;
+      EXPECT_THAT(explained(answer), HasSubstr("flange_pose in the request is no pose"));
+    }
+  }
   EXPECT_EQ(fixture.source.sequence, 0U) << "no frame is taken for any of them";
 }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -121,6 +122,18 @@ TEST_P(Orientation, StaysInItsRange) {
         EXPECT_EQ(d, 0.0);
     }
   }
+}
+
+TEST_P(Orientation, IsNoneWhenAValueIsNoNumber) {
+  const std::size_t used = GetParam() == PoseConvention::quaternion ? 4 : 3;
+  for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    for (std::size_t i = 0; i < used; ++i) {
+      Values values{};
+      values[i] = wrong;
+      EXPECT_FALSE(rotation_from_values(values, GetParam()).allFinite()) << i;
+    }
+  }
+  EXPECT_TRUE(rotation_from_values({}, GetParam()).isIdentity()) << "zeros are no turn";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Orientation,
