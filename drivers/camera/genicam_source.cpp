@@ -43,6 +43,7 @@ GenicamSource::~GenicamSource() {
 
 Status GenicamSource::grab(std::span<float> storage, DepthFrame& frame) {
   std::unique_lock lock(mutex_);
+  ++number_;
   storage_ = storage;
   deadline_ns_ = monotonic_ns() + options_.timeout_ns;
   request_ = RequestState::wanted;
@@ -84,15 +85,24 @@ void GenicamSource::work() {
   std::unique_lock lock(mutex_);
   while (!stop_) {
     const bool asked = request_ == RequestState::wanted;
+    const std::uint64_t number = number_;
+    const std::int64_t deadline_ns = deadline_ns_;
     lock.unlock();
-    if (session_ == nullptr && (asked || monotonic_ns() >= next_attempt_ns_)) connect();
+    if (session_ == nullptr && (asked || monotonic_ns() >= next_attempt_ns_)) {
+      connect();
+      if (session_ != nullptr) {
+        // That took long: the request may have timed out, and another may wait.
+        lock.lock();
+        continue;
+      }
+    }
     if (session_ == nullptr) {
-      finish(last_failure_);
+      finish(last_failure_, number);
       wait_between_attempts();
     } else if (session_->lost()) {
       disconnect({StatusCode::camera_lost, "the camera gave no sign of life"});
     } else if (asked) {
-      serve();
+      serve(number, deadline_ns);
     } else if (options_.trigger != CameraTrigger::software) {
       session_->idle(idle_ns);
     } else {
@@ -161,13 +171,15 @@ Status GenicamSource::check_empty_bin(const Camera& camera) const {
                         camera.height, empty.width, empty.height);
 }
 
-void GenicamSource::serve() {
+void GenicamSource::serve(std::uint64_t number, std::int64_t deadline_ns) {
+  serving_ = number;
   Status status = check_empty_bin(session_->interpretation().camera);
-  if (status.ok()) status = session_->take(deadline_ns_, wanted_);
+  if (status.ok()) status = session_->take(deadline_ns, wanted_);
   if (status.ok()) {
     {
       const std::lock_guard lock(mutex_);
-      if (request_ != RequestState::wanted) {
+      // A frame that came too late for its request must not answer the one that waits by now.
+      if (request_ != RequestState::wanted || number_ != number) {
         session_->discard();
         connected_ = true;
         return;
@@ -178,7 +190,7 @@ void GenicamSource::serve() {
     std::snprintf(name_.data(), name_.size(), "%s/%llu", session_->name().c_str(),
                   static_cast<unsigned long long>(frame_.sequence));
   }
-  finish(status);
+  finish(status, number);
   // Giving up a session takes long when the camera is gone, so it waits until the caller has its answer.
   if (session_->lost() || session_->changed()) {
     disconnect(status);
@@ -187,9 +199,10 @@ void GenicamSource::serve() {
   }
 }
 
-void GenicamSource::finish(const Status& status) {
+void GenicamSource::finish(const Status& status, std::uint64_t number) {
   {
     const std::lock_guard lock(mutex_);
+    if (number_ != number) return;
     if (request_ != RequestState::wanted && request_ != RequestState::decoding) return;
     status_ = status;
     request_ = RequestState::done;
@@ -200,6 +213,7 @@ void GenicamSource::finish(const Status& status) {
 void GenicamSource::note_exposed() {
   {
     const std::lock_guard lock(mutex_);
+    if (number_ != serving_) return;
     exposed_ = true;
   }
   to_caller_.notify_all();

@@ -50,8 +50,8 @@ class GenicamSource final : public FrameSource {
   void connect();
   void disconnect(const Status& reason);
   void wait_between_attempts();
-  void serve();
-  void finish(const Status& status);
+  void serve(std::uint64_t number, std::int64_t deadline_ns);
+  void finish(const Status& status, std::uint64_t number);
   void note_exposed();
   [[nodiscard]] Status check_empty_bin(const Camera& camera) const;
 
@@ -63,7 +63,8 @@ class GenicamSource final : public FrameSource {
   std::condition_variable to_thread_;
   std::condition_variable to_caller_;
   RequestState request_ = RequestState::none;
-  bool exposed_ = false;  ///< The frame of the request, which is on its way.
+  std::uint64_t number_ = 0;  ///< Of the latest request: what was done for another is not for this one.
+  bool exposed_ = false;      ///< The frame of the request, which is on its way.
   std::span<float> storage_;
   std::int64_t deadline_ns_ = 0;
   DepthFrame frame_;
@@ -76,6 +77,7 @@ class GenicamSource final : public FrameSource {
   std::int64_t pause_ns_ = 0;
   std::int64_t next_attempt_ns_ = 0;
   std::int64_t late_until_ns_ = 0;
+  std::uint64_t serving_ = 0;  ///< Number of the request whose frame is being taken.
   Status last_failure_;
 
   std::atomic<bool> connected_{false};

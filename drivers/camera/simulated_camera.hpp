@@ -58,6 +58,8 @@ class SimulatedCamera {
   void set_truncated(bool truncated) { truncated_ = truncated; }
   /// From now on stored values mean something else, as if somebody had changed the output mode.
   void set_output_mode(SimulatedOutputMode mode) { new_mode_ = static_cast<int>(mode); }
+  /// The next reading of the output mode is not answered, as when a packet is lost on the way.
+  void lose_mode_answer() { loses_mode_answer_ = true; }
   /// From now on frames are these pixels alone, as if somebody had changed the region.
   void set_region(const SensorRegion& region);
 
@@ -124,6 +126,7 @@ class SimulatedCamera {
   std::atomic<bool> line_{false};
   std::atomic<bool> deaf_{false};
   std::atomic<bool> truncated_{false};
+  std::atomic<bool> loses_mode_answer_{false};
   std::atomic<std::uint64_t> region_{0};
   std::atomic<int> new_mode_{-1};
   std::atomic<std::uint64_t> frames_sent_{0};

@@ -196,6 +196,10 @@ void SimulatedCamera::answer(int socket, const sockaddr_in& client, std::span<co
   std::uint16_t outcome = success;
   std::vector<std::byte> reply;
   if (may_write(client)) heard_ns_ = monotonic_ns();
+  const bool reads = command == read_register || command == read_memory_command;
+  if (reads && payload.size() >= 4 && word(payload, 0) == reg::output_mode && loses_mode_answer_.exchange(false)) {
+    return;
+  }
   if (command == discovery) {
     reply.resize(reg::discovery_end);
     read_memory(0, reply);

@@ -96,6 +96,55 @@ TEST_F(CameraFaults, FrameOfARequestThatWasGivenUpIsNeverUsed) {
   EXPECT_EQ(next.code(), StatusCode::camera_lost) << "only the frame before could have come in time";
 }
 
+/// A camera whose answers may come later than a request waits.
+class LateAnswers : public CameraFaults {
+ protected:
+  void SetUp() override {
+    CameraFaults::SetUp();
+    // Aravis asks again after half a second.
+    options_.timeout_ns = 300'000'000;
+    switch_on();
+  }
+};
+
+TEST_F(LateAnswers, FrameThatWasDecodableOnlyAfterItsRequestAnswersNoOther) {
+  connect();
+  camera_->lose_mode_answer();
+  ASSERT_EQ(grab_in_time().code(), StatusCode::camera_lost) << "its frame came, but not the output mode";
+  const std::int64_t asked_ns = monotonic_ns();
+  const Status next = grab_in_time();
+  ASSERT_TRUE(next.ok()) << next.message();
+  expect_frame(1);
+  EXPECT_GE(frame_.captured_ns, asked_ns);
+}
+
+TEST_F(LateAnswers, FailureOfARequestBeforeAnswersNoOther) {
+  connect();
+  camera_->set_output_mode(SimulatedOutputMode::disparity_c);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  camera_->lose_mode_answer();
+  ASSERT_EQ(grab_in_time().code(), StatusCode::camera_lost);
+  const Status next = grab_in_time();
+  EXPECT_NE(next.code(), StatusCode::bad_frame) << next.message();
+}
+
+TEST_F(LateAnswers, RequestThatTimedOutWhileConnectingTriggersNothing) {
+  {
+    GenicamSource other(options_, LoadedFrame{});
+    ASSERT_TRUE(other.wait_connected(10 * second_ns));
+    source_.emplace(options_, LoadedFrame{});
+    // Each failure makes the pause longer in which the source does not connect by itself.
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(grab_in_time().code(), StatusCode::camera_lost);
+  }
+  camera_->lose_mode_answer();
+  ASSERT_EQ(grab_in_time().code(), StatusCode::camera_lost);
+  ASSERT_TRUE(source_->wait_connected(10 * second_ns));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_EQ(camera_->frames_sent(), 0U) << "nobody waits for it";
+  EXPECT_TRUE(grab_in_time().ok());
+  EXPECT_EQ(source_->connection_count(), 1U);
+}
+
 TEST_F(CameraFaults, TruncatedFrame) {
   switch_on();
   connect();
