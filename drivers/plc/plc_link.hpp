@@ -50,7 +50,8 @@ class PlcLink {
 
   /// Waits for a request. False when none came within `timeout` or the link was stopped.
   [[nodiscard]] virtual bool wait_for_request(PlcRequest& request, std::chrono::milliseconds timeout) = 0;
-  /// False once the PLC gave the request up: the worker may stop early, but commits something all the same.
+  /// False once the PLC gave the request up, or fell silent, so that it will not be told of a pick: the worker may stop
+  /// early, but commits something all the same.
   [[nodiscard]] virtual bool is_wanted(std::uint16_t sequence) const = 0;
   /// The frame of this request is taken: the robot may move.
   virtual void capture_done(std::uint16_t sequence) = 0;

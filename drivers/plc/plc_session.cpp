@@ -76,8 +76,9 @@ void PlcSession::on_answer(const ResultBlock& result, std::int64_t now_ns) {
   }
   const HandshakeActions actions =
       take(HandshakeEvent::of_answer(answer.sequence, answer.code, has_pick(answer)), now_ns);
-  // A PLC that reads the code alone must not be led to a pick either.
-  if (actions.commit && has_pick(answer) && !state_.result_valid) answer.code = ResultCode::plc_silent;
+  // A PLC that reads the code alone must not be led to a pick either. To the worker such a request is given up.
+  const bool withheld = has_pick(answer) || answer.code == ResultCode::given_up;
+  if (actions.commit && state_.was_silent && withheld) answer.code = ResultCode::plc_silent;
   if (actions.commit) {
     commit(answer);
     delivery_from_ns_ = state_.started_ns + detection_ns(answer);
@@ -114,7 +115,7 @@ void PlcSession::set_clients(std::uint16_t clients) { put_live(live_register::cl
 
 std::uint16_t PlcSession::wanted() const {
   const bool running = state_.phase == HandshakePhase::capturing || state_.phase == HandshakePhase::processing;
-  return running ? state_.sequence : std::uint16_t{0};
+  return running && !state_.was_silent ? state_.sequence : std::uint16_t{0};
 }
 
 HandshakeInputs PlcSession::levels() const {

@@ -44,7 +44,7 @@ class PlcSession {
   void on_delivered(std::int64_t now_ns);
   void set_clients(std::uint16_t clients);
 
-  /// The request that the PLC still waits for; 0: none.
+  /// The request that the PLC still waits for, and whose pick it would be told; 0: none.
   [[nodiscard]] std::uint16_t wanted() const;
 
  private:

@@ -47,12 +47,15 @@ void ModbusPoller::Loop::run() {
   while (!stopping_.load()) {
     wait(monotonic_ns());
     session_.on_news(mailbox_.take(), monotonic_ns());
+    // Before what follows, which waits for the PLC: what nobody wants any more must not count as told meanwhile.
+    mailbox_.set_wanted(session_.wanted());
     if (!plc_.is_open() && monotonic_ns() >= connect_again_ns_) connect(monotonic_ns());
     if (plc_.is_open()) {
       Status done;
       if (monotonic_ns() >= look_again_ns_) {
         look_again_ns_ = monotonic_ns() + nanoseconds(options_.poll_period);
         done = look(monotonic_ns());
+        mailbox_.set_wanted(session_.wanted());
       }
       session_.set_clients(1);
       if (done.ok()) done = writer_.write(plc_, input_registers_, wants_list_);

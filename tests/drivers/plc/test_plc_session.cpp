@@ -9,11 +9,21 @@ namespace graspd {
 namespace {
 
 constexpr std::int64_t millisecond = 1'000'000;
+constexpr std::int64_t second = 1000 * millisecond;
 
 /// A session over tables of its own, which triggers and answers at the times that it is told.
 class Cell {
  public:
-  Cell() { session_.on_time(true, true, 0); }
+  explicit Cell(const HandshakeOptions& options = {})
+      : session_({coils_, discrete_inputs_, holding_registers_, input_registers_}, {}, options) {
+    session_.on_time(true, true, 0);
+  }
+
+  void beat(std::int64_t now_ns) {
+    ++holding_registers_[request_register::plc_heartbeat];
+    PlcRequest request;
+    EXPECT_FALSE(session_.on_written(now_ns, request));
+  }
 
   /// A rising edge of the trigger, after the answer before was acknowledged.
   PlcRequest trigger(std::int64_t now_ns) {
@@ -32,6 +42,9 @@ class Cell {
     session_.on_answer(block, now_ns);
   }
   [[nodiscard]] PlcSession& session() { return session_; }
+  [[nodiscard]] std::uint16_t register_at(std::size_t address) const { return input_registers_[address]; }
+  [[nodiscard]] std::uint16_t result_code() const { return register_at(block::result_code); }
+  [[nodiscard]] bool has(std::uint16_t discrete_input) const { return discrete_inputs_[discrete_input] != 0; }
   [[nodiscard]] std::uint16_t overhead() const { return input_registers_[live_register::answer_overhead]; }
   [[nodiscard]] std::uint16_t mirrored_overhead() const {
     return holding_registers_[std::size_t{holding_mirror} + live_register::answer_overhead];
@@ -42,7 +55,7 @@ class Cell {
   std::array<std::uint8_t, discrete_input::count> discrete_inputs_{};
   std::array<std::uint16_t, holding_register_space> holding_registers_{};
   std::array<std::uint16_t, input_register_space> input_registers_{};
-  PlcSession session_{{coils_, discrete_inputs_, holding_registers_, input_registers_}, {}, {}};
+  PlcSession session_;
 };
 
 /// Of an answer: everything, then capture, five stages of the detection, and the choice of a grasp.
@@ -87,6 +100,30 @@ TEST(PlcSession, CountsNoAnswerThatThePlcDidNotGet) {
   cell.answer(late, {}, seen_ns + 105 * millisecond);
   cell.session().on_delivered(seen_ns + 106 * millisecond);
   EXPECT_EQ(cell.overhead(), 0) << "nobody waits for this answer";
+}
+
+TEST(PlcSession, SilentPlcWaitsForNoPick) {
+  Cell cell({second, 0});
+  cell.beat(seen_ns);
+  const PlcRequest request = cell.trigger(seen_ns);
+  EXPECT_EQ(cell.session().wanted(), request.sequence);
+  cell.session().on_time(true, true, seen_ns + 1001 * millisecond);
+  EXPECT_EQ(cell.session().wanted(), 0) << "the worker must not count its pick as told";
+  cell.beat(seen_ns + 1100 * millisecond);
+  EXPECT_EQ(cell.session().wanted(), 0) << "it was silent while the request ran";
+
+  ResultBlock given_up;
+  given_up.sequence = request.sequence;
+  given_up.code = ResultCode::given_up;
+  cell.session().on_answer(given_up, seen_ns + 1200 * millisecond);
+  EXPECT_TRUE(cell.has(discrete_input::done));
+  EXPECT_FALSE(cell.has(discrete_input::error));
+  EXPECT_FALSE(cell.has(discrete_input::result_valid));
+  EXPECT_EQ(cell.result_code(), static_cast<std::uint16_t>(ResultCode::plc_silent));
+
+  cell.beat(seen_ns + 1300 * millisecond);
+  const PlcRequest again = cell.trigger(seen_ns + 1300 * millisecond);
+  EXPECT_EQ(cell.session().wanted(), again.sequence);
 }
 
 }  // namespace
