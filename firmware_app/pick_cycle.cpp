@@ -209,7 +209,8 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
   const std::int64_t start = now();
   const MoveAllowed move_allowed(*cycle.source, plc, request.sequence);
   const Status grabbed = grab(cycle, capture.frame);
-  plc.set_camera_ok(grabbed.code() != StatusCode::camera_lost);
+  // A camera that cannot even be connected fails with other codes than camera_lost, too.
+  plc.set_camera_ok(grabbed.ok() || (grabbed.code() != StatusCode::camera_lost && cycle.source->connected()));
   if (!grabbed.ok()) return failed(cycle, request, grabbed);
   plc.capture_done(request.sequence);
   const std::int64_t taken = now();

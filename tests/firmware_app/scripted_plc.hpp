@@ -51,9 +51,11 @@ class ScriptedSource : public FrameSource {
   [[nodiscard]] std::string_view frame_name() const override { return "scripted"; }
 
   void set_exposure_listener(ExposureListener* listener) override { listener_ = listener; }
+  [[nodiscard]] bool connected() const override { return is_connected; }
 
   RenderedScene scene;
   Status failure;
+  bool is_connected = true;
   bool tells_exposure = false;
   std::function<void()> while_on_its_way;  ///< Called when the frame is exposed, but not there.
   std::int64_t captured_ns = 0;

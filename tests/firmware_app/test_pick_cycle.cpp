@@ -95,6 +95,19 @@ TEST(PickCycle, FailedCaptureForgetsTheOneBefore) {
   EXPECT_TRUE(fixture.plc.camera_ok);
 }
 
+TEST(PickCycle, CameraThatIsNotConnectedIsNotOkWhateverTheReason) {
+  PickCycleFixture fixture(angle_bar_scene());
+  for (const StatusCode code : {StatusCode::bad_configuration, StatusCode::memory_limit, StatusCode::bad_frame}) {
+    fixture.source.failure = Status(code, "scripted");
+    fixture.source.is_connected = false;
+    EXPECT_EQ(fixture.ask().block.code, result_code(code));
+    EXPECT_FALSE(fixture.plc.camera_ok);
+    fixture.source.is_connected = true;
+    EXPECT_EQ(fixture.ask().block.code, result_code(code));
+    EXPECT_TRUE(fixture.plc.camera_ok) << "it answered, if with nothing of use";
+  }
+}
+
 TEST(PickCycle, EmptyBinIsToldFromNoMatch) {
   PickCycleFixture empty(angle_bar_scene(0));
   const Answer nothing = empty.ask();
