@@ -106,12 +106,12 @@ std::size_t picks_needed(const PickSettings& settings, const PlcRequest& request
   return settings.count_all ? std::numeric_limits<std::size_t>::max() : given + request.results_wanted;
 }
 
-/// Puts the picks that are next in line into the block, as many as are wanted, and counts them as given
-/// unless this is a dry run.
-void put_picks(PickCycle& cycle, const PlcRequest& request, ResultBlock& block) {
+/// Puts the picks that are next in line into the block, as many as are wanted but at most `usable`, and counts them as
+/// given unless this is a dry run.
+void put_picks(PickCycle& cycle, const PlcRequest& request, std::size_t usable, ResultBlock& block) {
   Capture& capture = cycle.capture;
   const std::span<const Pick> left = capture.picks.picks.subspan(capture.given);
-  const std::size_t count = std::min<std::size_t>({left.size(), request.results_wanted, block.listed.size()});
+  const std::size_t count = std::min<std::size_t>({usable, request.results_wanted, block.listed.size()});
   const Pick& pick = left.front();
   block.verified = true;
   for (std::size_t i = 0; i < count; ++i) {
@@ -147,19 +147,47 @@ void avoid_last_place(PickCycle& cycle) {
   cycle.last_place.reset();
 }
 
-/// Takes what is too near to avoided places, or needs another tool than the one wanted, out of the picks that the PLC
-/// was not told of yet; every instance is asked for its pick before.
-void drop_unwanted_picks(PickCycle& cycle, const PlcRequest& request) {
-  if (request.tool == 0 && !request.avoid_last_place) return;
+/// Takes what is too near to avoided places out of the picks that the PLC was not told of yet; every instance is asked
+/// for its pick before.
+void drop_avoided_picks(PickCycle& cycle) {
   Capture& capture = cycle.capture;
   capture.picks = find_picks(cycle.memory.grasp, std::numeric_limits<std::size_t>::max());
   FixedVector<Pick>& picks = cycle.memory.grasp.picks;
   auto* const end = std::remove_if(picks.begin() + capture.given, picks.end(), [&](const Pick& pick) {
-    return (request.tool != 0 && pick.tool != request.tool) ||
-           (request.avoid_last_place && is_avoided(cycle.memory.avoided.places(), pick.robot_from_tool.translation,
-                                                   cycle.settings.grasp.avoid.radius));
+    return is_avoided(cycle.memory.avoided.places(), pick.robot_from_tool.translation,
+                      cycle.settings.grasp.avoid.radius);
   });
   picks.truncate(static_cast<std::size_t>(end - picks.begin()));
+}
+
+/// Brings the picks of the tool and the part that the request names in front of the others that the PLC was not told
+/// of yet, each kind in its order; how many they are.
+std::size_t bring_forward(PickCycle& cycle, const PlcRequest& request) {
+  const Capture& capture = cycle.capture;
+  FixedVector<Pick>& picks = cycle.memory.grasp.picks;
+  Pick* const first = picks.begin() + capture.given;
+  Pick* front = first;
+  for (Pick* pick = first; pick != picks.end(); ++pick) {
+    const std::uint32_t part = capture.banks[capture.detections.instances[pick->instance].bank].part->part_id;
+    if (request.tool != 0 && pick->tool != request.tool) continue;
+    if (request.part != 0 && part != request.part) continue;
+    // std::stable_partition would allocate.
+    std::rotate(front, pick, pick + 1);
+    ++front;
+  }
+  return static_cast<std::size_t>(front - first);
+}
+
+/// Goes on with the choice until the request has the picks that it asks for, or every instance was asked; how many of
+/// those that are next in line it can use.
+std::size_t find_next_picks(PickCycle& cycle, const PlcRequest& request) {
+  Capture& capture = cycle.capture;
+  if (request.avoid_last_place) drop_avoided_picks(cycle);
+  for (std::size_t needed = picks_needed(cycle.settings, request, capture.given);; ++needed) {
+    capture.picks = find_picks(cycle.memory.grasp, needed);
+    const std::size_t usable = bring_forward(cycle, request);
+    if (usable >= request.results_wanted || capture.picks.picks.size() < needed) return usable;
+  }
 }
 
 ResultBlock begin_block(const PlcRequest& request) {
@@ -230,7 +258,7 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
 
   Answer answer{begin_block(request), {}};
   put_verdict(capture, answer.block);
-  if (capture.picks.found) put_picks(cycle, request, answer.block);
+  if (capture.picks.found) put_picks(cycle, request, capture.picks.picks.size(), answer.block);
   set_time(answer.block, BlockStage::capture, taken - start);
   for (std::size_t i = 0; i < stage_count; ++i) {
     const auto stage = static_cast<BlockStage>(static_cast<std::size_t>(BlockStage::preprocess) + i);
@@ -243,19 +271,21 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
 
 Answer answer_next(PickCycle& cycle, const PlcRequest& request, const PlcLink& plc) {
   Capture& capture = cycle.capture;
-  if (Status served = check_served(request, cycle.settings); !served.ok()) return failed(cycle, request, served);
+  if (Status served = check_served(request, cycle.settings, cycle.banks); !served.ok()) {
+    return failed(cycle, request, served);
+  }
   if (request.avoid_last_place) avoid_last_place(cycle);
   Answer answer{begin_block(request), {}};
+  std::size_t usable = 0;
   if (capture.answered) {
     const std::int64_t start = cycle.settings.now_ns();
-    drop_unwanted_picks(cycle, request);
-    capture.picks = find_picks(cycle.memory.grasp, picks_needed(cycle.settings, request, capture.given));
+    usable = find_next_picks(cycle, request);
     set_time(answer.block, BlockStage::grasp, cycle.settings.now_ns() - start);
     put_verdict(capture, answer.block);
   }
   if (!plc.is_wanted(request.sequence)) return given_up(request);
-  if (capture.answered && capture.given < capture.picks.picks.size()) {
-    put_picks(cycle, request, answer.block);
+  if (usable > 0) {
+    put_picks(cycle, request, usable, answer.block);
   } else {
     answer.block.code = ResultCode::nothing_left;
     answer.block.reason = ResultReason::none;

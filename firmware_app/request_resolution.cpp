@@ -73,19 +73,22 @@ Status select_region(const PlcRequest& request, const PickSettings& settings, Re
 
 }  // namespace
 
-Status check_served(const PlcRequest& request, const PickSettings& settings) {
+Status check_served(const PlcRequest& request, const PickSettings& settings, std::span<const Bank> banks) {
   if (!request.well_formed) return {StatusCode::bad_request, "a request register holds a value that means nothing"};
   if (request.save_snapshot && !settings.keeps_snapshots) {
     return {StatusCode::bad_request, "options asks for save_snapshot, but output.snapshots is not configured"};
   }
-  return {};
+  std::span<const Bank> of_part;
+  if (Status known = select_banks(banks, request.part, of_part); !known.ok()) return known;
+  ToolSet tools = settings.grasp.tools;
+  return select_tool(request.tool, tools);
 }
 
 Status resolve_request(const PlcRequest& request, const PickSettings& settings, std::span<const Bank> banks,
                        ResolvedRequest& resolved) {
   resolved.detect = settings.detect;
   resolved.grasp = settings.grasp;
-  if (Status served = check_served(request, settings); !served.ok()) return served;
+  if (Status served = check_served(request, settings, banks); !served.ok()) return served;
   if (Status placed = take_flange_pose(request, settings, resolved); !placed.ok()) return placed;
   if (Status known = select_banks(banks, request.part, resolved.banks); !known.ok()) return known;
   if (Status known = select_tool(request.tool, resolved.grasp.tools); !known.ok()) return known;

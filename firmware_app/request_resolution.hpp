@@ -16,8 +16,9 @@ struct ResolvedRequest {
   GraspParameters grasp;        ///< With the camera where it is at the exposure.
 };
 
-/// Fails with bad_request when a register holds what has no meaning, or asks for what graspd was not configured for.
-[[nodiscard]] Status check_served(const PlcRequest& request, const PickSettings& settings);
+/// What requests of both kinds must keep to. Fails with bad_request when a register holds what has no meaning, names no
+/// part or tool that there is, or asks for what graspd was not configured for.
+[[nodiscard]] Status check_served(const PlcRequest& request, const PickSettings& settings, std::span<const Bank> banks);
 
 /// Turns what the PLC asked for into what is needed to answer it. With a camera on the flange the request's pose says
 /// where it is, and all that is given in the robot's frame follows. Fails with bad_request, naming the register, when a

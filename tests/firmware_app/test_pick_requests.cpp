@@ -169,17 +169,79 @@ TEST(PickRequests, PicksAreForTheToolThatIsAskedFor) {
   EXPECT_EQ(explained(unknown), "no pick: no tool of number 9 is configured");
 }
 
+PlcRequest next_for(std::uint16_t part, std::uint16_t tool) {
+  PlcRequest next;
+  next.kind = RequestKind::next;
+  next.part = part;
+  next.tool = tool;
+  return next;
+}
+
 TEST(PickRequests, NextPassesOverWhatNeedsAnotherTool) {
   PickCycleFixture fixture(angle_bar_scene());
   add_tool(fixture.cycle.settings.grasp.tools, 5);
   ASSERT_EQ(fixture.ask().block.remaining, 1);
-  PlcRequest next;
-  next.kind = RequestKind::next;
-  next.tool = 5;
-  EXPECT_EQ(fixture.ask(next).block.code, ResultCode::nothing_left);
-  ASSERT_EQ(fixture.ask().block.remaining, 1);
-  next.tool = 1;
-  EXPECT_EQ(fixture.ask(next).block.code, ResultCode::ok);
+  EXPECT_EQ(fixture.ask(next_for(0, 5)).block.code, ResultCode::nothing_left);
+  EXPECT_EQ(fixture.ask(next_for(0, 1)).block.code, ResultCode::ok) << "it is left for the tool that it needs";
+  EXPECT_EQ(fixture.ask(next_for(0, 1)).block.code, ResultCode::nothing_left);
+}
+
+TEST(PickRequests, NextGivesWhatTheNamedToolCanPickFirst) {
+  PickCycleFixture fixture(angle_bar_scene(3));
+  ASSERT_EQ(fixture.ask().block.code, ResultCode::ok);
+  Capture& capture = fixture.cycle.capture;
+  capture.picks = find_picks(fixture.cycle.memory.grasp, 3);
+  FixedVector<Pick>& picks = fixture.cycle.memory.grasp.picks;
+  ASSERT_EQ(picks.size(), 3U);
+  add_tool(fixture.cycle.settings.grasp.tools, 5);
+  picks[2].tool = 5;
+  const Vector3 second = picks[1].robot_from_tool.translation;
+  const Vector3 third = picks[2].robot_from_tool.translation;
+  PlcRequest next = next_for(0, 5);
+  next.results_wanted = 5;
+  const ResultBlock other = fixture.ask(next).block;
+  ASSERT_EQ(other.code, ResultCode::ok);
+  EXPECT_EQ(other.tool, 5);
+  EXPECT_EQ(other.listed_count, 1) << "none for another tool";
+  EXPECT_EQ(other.remaining, 1);
+  EXPECT_EQ(other.pick.translation, third);
+  const ResultBlock last = fixture.ask(RequestKind::next).block;
+  ASSERT_EQ(last.code, ResultCode::ok);
+  EXPECT_EQ(last.pick.translation, second);
+  EXPECT_EQ(fixture.ask(RequestKind::next).block.code, ResultCode::nothing_left);
+}
+
+TEST(PickRequests, NextPassesOverOtherParts) {
+  PickCycleFixture fixture(angle_bar_scene());
+  // The same shape once more, under another number, of which a capture finds nothing that the first did not.
+  BankPart other = *fixture.banks[0].part;
+  other.part_id = 8;
+  fixture.banks.push_back(fixture.banks[0]);
+  fixture.banks[1].part = &other;
+  fixture.cycle.banks = fixture.banks;
+  ASSERT_EQ(fixture.ask(RequestKind::capture, 7).block.remaining, 1);
+  EXPECT_EQ(fixture.ask(next_for(8, 0)).block.code, ResultCode::nothing_left);
+  const ResultBlock next = fixture.ask(next_for(7, 0)).block;
+  ASSERT_EQ(next.code, ResultCode::ok);
+  EXPECT_EQ(next.part, 7);
+}
+
+TEST(PickRequests, NextThatNamesNothingIsABadRequestAndCostsNothing) {
+  PickCycleFixture fixture(angle_bar_scene());
+  const ResultBlock first = fixture.ask().block;
+  ASSERT_EQ(first.remaining, 1);
+  PlcRequest next = next_for(0, 9);
+  next.avoid_last_place = true;
+  const Answer tool = fixture.ask(next);
+  EXPECT_EQ(tool.block.code, ResultCode::bad_request);
+  EXPECT_EQ(explained(tool), "no pick: no tool of number 9 is configured");
+  next = next_for(99, 0);
+  next.avoid_last_place = true;
+  const Answer part = fixture.ask(next);
+  EXPECT_EQ(part.block.code, ResultCode::bad_request);
+  EXPECT_EQ(explained(part), "no pick: no bank of part number 99 is loaded");
+  EXPECT_TRUE(fixture.cycle.last_place.has_value());
+  EXPECT_EQ(fixture.ask(RequestKind::next).block.code, ResultCode::ok);
 }
 
 /// A request from a robot whose flange looks down on the bin, leaning by `lean` radians.
