@@ -11,9 +11,10 @@ namespace graspd {
 namespace {
 
 /// Of `minimum` 0 means something else than a short time, so what is as good as 0 is refused.
-void read_seconds(SettingsTable& table, std::string_view key, std::chrono::milliseconds& value, double minimum) {
+void read_seconds(SettingsTable& table, std::string_view key, std::chrono::milliseconds& value, double minimum,
+                  double maximum = 86400) {
   float seconds = static_cast<float>(value.count()) * 1e-3F;
-  table.read(key, seconds, minimum, 86400);
+  table.read(key, seconds, minimum, maximum);
   value = std::chrono::milliseconds(std::lround(static_cast<double>(seconds) * 1e3));
   if (seconds > 0 && value.count() == 0) table.complain(key, "must be 0, or at least 0.001");
 }
@@ -43,12 +44,14 @@ void read_client(SettingsTable table, PollerOptions& plc) {
   read_address(table, "address", plc.address);
   read_number(table, "port", plc.port, 1, 65535);
   read_number(table, "unit", plc.unit, 0, 255);
+  if (!is_unit(plc.unit)) table.complain("unit", "must lie between 0 and 247, or be 255");
   // Each area must end before the addresses do.
   read_number(table, "coil_address", plc.coil_address, 0, addresses - coil::count);
   read_number(table, "request_address", plc.request_address, 0, addresses - request_register::count);
   read_number(table, "result_address", plc.result_address, 0, addresses - input_register_space);
   read_seconds(table, "poll_period", plc.poll_period, 0.001);
-  read_seconds(table, "response_timeout", plc.response_timeout, 0.01);
+  read_seconds(table, "response_timeout", plc.response_timeout, 0.01,
+               static_cast<double>(longest_response_timeout.count()) * 1e-3);
   if (areas_overlap(plc)) {
     table.complain(table.has("result_address") ? "result_address" : "request_address",
                    "must leave room: the " + std::to_string(request_register::count) + " request registers and the " +

@@ -10,9 +10,14 @@ namespace {
 
 [[nodiscard]] Status check_options(const PollerOptions& options) {
   using std::chrono::milliseconds;
-  if (options.poll_period < milliseconds(1) || options.response_timeout < milliseconds(10)) {
+  if (options.poll_period < milliseconds(1) || options.response_timeout < milliseconds(10) ||
+      options.response_timeout > longest_response_timeout) {
     return {StatusCode::bad_configuration,
-            "Modbus client: the poll period must be at least 1 ms, the response timeout at least 10 ms"};
+            "Modbus client: the poll period must be at least 1 ms, the response timeout 10 ms to 10 s"};
+  }
+  if (!is_unit(options.unit)) {
+    return Status::format(StatusCode::bad_configuration, "Modbus client: %u is no unit id, but 0 to 247 and 255 are",
+                          unsigned{options.unit});
   }
   constexpr unsigned addresses = 65536;
   if (options.coil_address + unsigned{coil::count} > addresses ||

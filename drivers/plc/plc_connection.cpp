@@ -39,7 +39,11 @@ void PlcConnection::FreeContext::operator()(_modbus* context) const { modbus_fre
 PlcConnection::PlcConnection(const SocketAddress& address, std::uint8_t unit, std::chrono::milliseconds time_limit)
     : address_(address), time_limit_(time_limit), context_(modbus_new_tcp("127.0.0.1", MODBUS_TCP_DEFAULT_PORT)) {
   if (context_ == nullptr) return;
-  modbus_set_slave(context_.get(), unit);
+  if (modbus_set_slave(context_.get(), unit) != 0) {
+    // It would ask another unit.
+    context_.reset();
+    return;
+  }
   const auto microseconds = static_cast<std::uint32_t>(std::chrono::microseconds(time_limit).count());
   modbus_set_response_timeout(context_.get(), microseconds / 1'000'000, microseconds % 1'000'000);
   // Without a limit between bytes the one above holds for the whole answer, however it trickles.

@@ -23,7 +23,7 @@ class PlcConnection {
   PlcConnection(const PlcConnection&) = delete;
   PlcConnection& operator=(const PlcConnection&) = delete;
 
-  /// False when there was no memory to construct it with.
+  /// False when there was no memory to construct it with, or `unit` is none that Modbus knows.
   [[nodiscard]] bool is_usable() const { return context_ != nullptr; }
   [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
   [[nodiscard]] Status open();

@@ -96,6 +96,11 @@ TEST_F(ConfigurationFile, WhatTheLineToThePlcCannotTakeIsRefused) {
               StartsWith("graspd.toml:8: modbus.client.address must be an IP address"));
   EXPECT_EQ(modbus(client + "poll_period = 0.0\n"),
             "graspd.toml:9: modbus.client.poll_period must lie between 0.001 and 86400, but is 0");
+  EXPECT_EQ(modbus(client + "response_timeout = 11.0\n"),
+            "graspd.toml:9: modbus.client.response_timeout must lie between 0.01 and 10, but is 11");
+  EXPECT_EQ(modbus(client + "unit = 248\n"), "graspd.toml:9: modbus.client.unit must lie between 0 and 247, or be 255");
+  EXPECT_THAT(modbus(client + "unit = 254\n"), StartsWith("graspd.toml:9: modbus.client.unit must"));
+  EXPECT_EQ(modbus(client + "unit = 247\nresponse_timeout = 10.0\n"), "(accepted)");
   EXPECT_THAT(modbus(client + "result_address = 65000\n"), StartsWith("graspd.toml:9: modbus.client.result_address"));
   EXPECT_EQ(modbus(client + "request_address = 990\n"),
             "graspd.toml:9: modbus.client.request_address must leave room: the 37 request registers and the 611 of "

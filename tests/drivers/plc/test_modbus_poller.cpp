@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "drivers/plc/modbus_poller.hpp"
 #include "drivers/plc/pick_list.hpp"
+#include "drivers/plc/plc_connection.hpp"
 #include "drivers/system/clock.hpp"
 #include "tests/drivers/plc/poller_bench.hpp"
 
@@ -243,6 +246,17 @@ TEST(ModbusPoller, RefusesOptionsThatMakeNoSense) {
   options.result_address = 1000;
   options.poll_period = 0ms;
   EXPECT_EQ(code(options), StatusCode::bad_configuration);
+  options.poll_period = 10ms;
+  options.response_timeout = longest_response_timeout + 1ms;
+  EXPECT_EQ(code(options), StatusCode::bad_configuration);
+  options.response_timeout = longest_response_timeout;
+  for (const std::uint8_t unit : std::array<std::uint8_t, 2>{248, 254}) {
+    options.unit = unit;
+    EXPECT_EQ(code(options), StatusCode::bad_configuration) << "reserved";
+    EXPECT_FALSE(PlcConnection({}, unit, 500ms).is_usable()) << "it would ask another unit";
+  }
+  for (const std::uint8_t unit : std::array<std::uint8_t, 4>{0, 1, 247, 255})
+    EXPECT_TRUE(PlcConnection({}, unit, 500ms).is_usable());
 }
 
 }  // namespace
