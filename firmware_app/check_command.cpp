@@ -41,6 +41,17 @@ void print_banks(const LoadedBanks& banks, const ToolSet& tools) {
   }
 }
 
+/// Half of WatchdogSec in graspd.service.
+constexpr std::int64_t longest_camera_timeout_ns = 15'000'000'000;
+
+void print_frames(const CameraSettings& camera, const FrameLimits& limits) {
+  std::printf("frames         up to %d x %d pixels\n", limits.maximum_width, limits.maximum_height);
+  if (camera.kind != CameraKind::genicam || camera.genicam.timeout_ns <= longest_camera_timeout_ns) return;
+  std::printf(
+      "               note: camera.timeout is %.1f s: graspd.service with its WatchdogSec of 30 s will not start\n",
+      static_cast<double>(camera.genicam.timeout_ns) * 1e-9);
+}
+
 Status check(const std::string& path) {
   const std::size_t baseline = resident_bytes();
   const Result<Configuration> read = read_configuration(path);
@@ -53,7 +64,7 @@ Status check(const std::string& path) {
   const Result<OpenedSource> frames = open_source(configuration.camera, false);
   if (!frames.ok()) return frames.status();
   const FrameLimits limits = frames.value().limits;
-  std::printf("frames         up to %d x %d pixels\n", limits.maximum_width, limits.maximum_height);
+  print_frames(configuration.camera, limits);
   if (!configuration.picture.empty()) {
     if (Status writable = check_writable(configuration.picture); !writable.ok()) return writable;
   }

@@ -61,6 +61,17 @@ PickSettings pick_settings(const Configuration& configuration) {
   return settings;
 }
 
+/// The pick worker stands still while it waits for a frame, and systemd must not take that for a fault.
+Status check_watchdog(const CameraSettings& camera, std::int64_t watchdog_interval_ns) {
+  const std::int64_t timeout_ns = camera.genicam.timeout_ns;
+  if (camera.kind != CameraKind::genicam || watchdog_interval_ns == 0) return {};
+  if (timeout_ns <= watchdog_interval_ns / 2) return {};
+  return Status::format(StatusCode::bad_configuration,
+                        "camera.timeout is %.1f s, but the service's WatchdogSec %.1f s: systemd would restart graspd "
+                        "while it waits for a frame; shorten the timeout to half of WatchdogSec, or raise that",
+                        static_cast<double>(timeout_ns) * 1e-9, static_cast<double>(watchdog_interval_ns) * 1e-9);
+}
+
 Status equip(const Configuration& configuration, Equipment& equipment) {
   const std::size_t baseline = resident_bytes();
   Result<LoadedBanks> banks = load_banks(configuration.banks);
@@ -121,6 +132,7 @@ Status run_daemon(const Configuration& configuration) {
   Result<SignalWaiter> signals = SignalWaiter::make();
   if (!signals.ok()) return signals.status();
   ServiceNotifier notifier;
+  if (Status fits = check_watchdog(configuration.camera, notifier.watchdog_interval_ns()); !fits.ok()) return fits;
   Equipment equipment;
   if (Status limited = limit_thread_stacks(); !limited.ok()) return limited;
   if (Status equipped = equip(configuration, equipment); !equipped.ok()) return equipped;

@@ -10,6 +10,7 @@
 namespace graspd {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -35,6 +36,22 @@ TEST(Check, TellsWhichToolTakesEachGrasp) {
   EXPECT_THAT(narrow, Not(HasSubstr("tool 4")));
   EXPECT_THAT(checked("[[tool]]\nkind = \"suction\"\nnumber = 1\n"),
               HasSubstr("note: grasp 1 will never be used: no tool is of its kind and number\n"));
+}
+
+/// What `graspd check` says of frames with a camera and this in its section.
+std::string checked_camera(const std::string& more) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(write_file(folder.path("bar.bank"), shared_angle_bar_bank()).ok());
+  const std::string configuration =
+      folder.write("graspd.toml", "banks = [\"bar.bank\"]\n[camera]\nsource = \"genicam\"\nmaximum_width = 320\n" +
+                                      ("maximum_height = 240\n" + more));
+  return run_graspd(folder, {"check", "--config", configuration}).output;
+}
+
+TEST(Check, NotesACameraTimeoutThatTheWatchdogDoesNotBear) {
+  EXPECT_THAT(checked_camera("timeout = 15.0\n"), AllOf(HasSubstr("frames  "), Not(HasSubstr("WatchdogSec"))));
+  EXPECT_THAT(checked_camera("timeout = 15.5\n"), HasSubstr("note: camera.timeout is 15.5 s: graspd.service with its "
+                                                            "WatchdogSec of 30 s will not start\n"));
 }
 
 }  // namespace

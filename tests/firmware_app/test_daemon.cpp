@@ -74,6 +74,16 @@ TEST_F(Daemon, PicksOnATriggerAndStopsOnASignal) {
   EXPECT_THAT(process_->errors(), HasSubstr("code=N002 stopped"));
 }
 
+TEST_F(Daemon, RefusesACameraTimeoutThatTheWatchdogDoesNotBear) {
+  const std::string configuration =
+      folder_.write("graspd.toml", "banks = [\"bar.bank\"]\n[camera]\nsource = \"genicam\"\ntimeout = 1.6\n");
+  setenv("WATCHDOG_USEC", "3000000", 1);
+  const GraspdOutcome outcome = run_graspd(folder_, {"run", "--config", configuration});
+  unsetenv("WATCHDOG_USEC");
+  EXPECT_EQ(outcome.exit_code, static_cast<int>(StatusCode::bad_configuration));
+  EXPECT_THAT(outcome.errors, HasSubstr("camera.timeout is 1.6 s, but the service's WatchdogSec 3.0 s"));
+}
+
 TEST_F(Daemon, LeavesAPictureOfTheLatestAnswer) {
   start("[output]\npicture = \"latest.png\"\n");
   Result<ModbusClient> client = connect();
