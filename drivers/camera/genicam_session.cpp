@@ -13,6 +13,9 @@ namespace {
 constexpr std::int64_t slice_ns = 50'000'000;
 /// Between two looks whether the exposure is over.
 constexpr std::int64_t exposure_slice_ns = 2'000'000;
+/// A frame that is kept must stay young enough until it is decoded and its age is looked at once more: at most so long,
+/// and at most a quarter of the age allowed.
+constexpr std::int64_t longest_way_ns = 100'000'000;
 
 /// Taken by a heartbeat thread of Aravis.
 void note_lost(ArvDevice*, std::atomic<bool>* lost) { *lost = true; }
@@ -217,7 +220,8 @@ Status GenicamSession::await_frame(std::int64_t deadline_ns, const std::atomic<b
     }
   } else {
     idle(0);
-    if (kept_ != nullptr && monotonic_ns() - kept_captured_ns_ <= options_.maximum_age_ns) return {};
+    const std::int64_t maximum_ns = options_.maximum_age_ns - std::min(options_.maximum_age_ns / 4, longest_way_ns);
+    if (kept_ != nullptr && monotonic_ns() - kept_captured_ns_ <= maximum_ns) return {};
     discard();
     await_exposure();
   }

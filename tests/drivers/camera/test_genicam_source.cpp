@@ -228,7 +228,7 @@ TEST_F(CameraOnTheWire, TellsThatTheExposureIsOverWhileTheFrameIsOnItsWay) {
 
 TEST_F(CameraOnTheWire, TakesWhatALineTriggered) {
   options_.trigger = CameraTrigger::hardware;
-  options_.maximum_age_ns = 100'000'000;
+  options_.maximum_age_ns = 200'000'000;
   options_.timeout_ns = 1'000'000'000;
   switch_on();
   connect();
@@ -249,6 +249,18 @@ TEST_F(CameraOnTheWire, TakesWhatALineTriggered) {
   const Status late = grab();
   EXPECT_EQ(late.code(), StatusCode::camera_lost);
   EXPECT_THAT(std::string(late.message()), HasSubstr("does its trigger line get a signal?"));
+}
+
+TEST_F(CameraOnTheWire, KeepsNoFrameThatWouldBeTooOldOnceItIsDecoded) {
+  options_.trigger = CameraTrigger::hardware;
+  options_.maximum_age_ns = 400'000'000;
+  options_.timeout_ns = 300'000'000;
+  switch_on();
+  connect();
+  camera_->signal_line();
+  // Younger than is allowed, but not by as much as it may take until its age is looked at again.
+  std::this_thread::sleep_for(std::chrono::milliseconds(340));
+  EXPECT_EQ(grab().code(), StatusCode::camera_lost) << "the next frame was awaited";
 }
 
 TEST_F(CameraOnTheWire, TakesTheNewestOfACameraThatRunsFreely) {
