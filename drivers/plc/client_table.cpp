@@ -53,6 +53,8 @@ ModbusClientSlot* ClientTable::most_idle(std::int64_t now_ns, std::int64_t idle_
 
 void ClientTable::open(ModbusClientSlot& slot, int descriptor, std::int64_t now_ns) {
   slot.descriptor = descriptor;
+  slot.opened_ns = now_ns;
+  slot.was_told = false;
   slot.heard_ns = now_ns;
   slot.paid_ns = now_ns;
   slot.was_slowed = false;

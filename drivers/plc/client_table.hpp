@@ -13,10 +13,12 @@ namespace graspd {
 struct ModbusClientSlot {
   static constexpr std::size_t capacity = 1024;
 
-  int descriptor = -1;        ///< -1: the slot is free.
-  std::int64_t heard_ns = 0;  ///< When it sent something last, or got an answer.
-  std::int64_t begun_ns = 0;  ///< When what `buffer` holds began to arrive, or the last request was taken from it.
-  std::int64_t paid_ns = 0;   ///< Up to when its requests have used up its rate.
+  int descriptor = -1;         ///< -1: the slot is free.
+  std::int64_t opened_ns = 0;  ///< When it connected.
+  bool was_told = false;       ///< The log has been told that it connected.
+  std::int64_t heard_ns = 0;   ///< When it sent something last, or got an answer.
+  std::int64_t begun_ns = 0;   ///< When what `buffer` holds began to arrive, or the last request was taken from it.
+  std::int64_t paid_ns = 0;    ///< Up to when its requests have used up its rate.
   bool was_slowed = false;
   std::size_t filled = 0;
   std::array<std::uint8_t, capacity> buffer{};

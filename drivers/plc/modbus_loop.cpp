@@ -23,6 +23,8 @@ constexpr std::int64_t longest_wait_ns = 50'000'000;
 constexpr std::int64_t accept_pause_ns = 1'000'000'000;
 constexpr std::uint32_t log_lines = 20;
 constexpr std::int64_t log_window_ns = 10'000'000'000;
+/// Some PLCs connect anew for every request: that would fill the journal, and hold back the lines that matter.
+constexpr std::int64_t lasting_ns = 2'000'000'000;
 constexpr std::size_t header_size = 7;
 constexpr int receives_at_once = 4;
 
@@ -129,6 +131,7 @@ void ModbusServer::Loop::run() {
       }
       if (waiting[1].revents != 0) accept_client(now_ns);
     }
+    tell_of_lasting_clients(now_ns);
     drop_unfinished(now_ns);
     session_->set_clients(static_cast<std::uint16_t>(clients_.open_count()));
     mailbox_.set_wanted(session_->wanted());
@@ -176,14 +179,13 @@ void ModbusServer::Loop::accept_client(std::int64_t now_ns) {
   tune_connection(descriptor);
   clients_.open(*slot, descriptor, now_ns);
   slot->name = name;
-  if (may_log(now_ns)) log_event(LogLevel::info, "I110", "client connected peer=%s", name.data());
 }
 
 ModbusClientSlot* ModbusServer::Loop::make_room(std::int64_t now_ns) {
   if (ModbusClientSlot* slot = clients_.free_slot(); slot != nullptr) return slot;
   ModbusClientSlot* idle = clients_.most_idle(now_ns, idle_ns_);
   if (idle == nullptr) return nullptr;
-  if (may_log(now_ns)) {
+  if (idle->was_told && may_log(now_ns)) {
     log_event(LogLevel::notice, "N113", "idle client gives way to a new one peer=%s", idle->name.data());
   }
   clients_.close(*idle);
@@ -198,7 +200,9 @@ void ModbusServer::Loop::receive(ModbusClientSlot& client, std::int64_t now_ns) 
     const ssize_t received = recv(client.descriptor, room.data(), room.size(), 0);
     if (received < 0 && (errno == EAGAIN || errno == EINTR)) return;
     if (received <= 0) {
-      if (may_log(now_ns)) log_event(LogLevel::info, "I111", "client disconnected peer=%s", client.name.data());
+      if (client.was_told && may_log(now_ns)) {
+        log_event(LogLevel::info, "I111", "client disconnected peer=%s", client.name.data());
+      }
       clients_.close(client);
       return;
     }
@@ -265,6 +269,14 @@ bool ModbusServer::Loop::serve(ModbusClientSlot& client, std::span<const std::ui
     mailbox_.post(wanted);
   }
   return answered;
+}
+
+void ModbusServer::Loop::tell_of_lasting_clients(std::int64_t now_ns) {
+  for (ModbusClientSlot& client : clients_.slots()) {
+    if (!client.is_open() || client.was_told || now_ns - client.opened_ns < lasting_ns) continue;
+    client.was_told = true;
+    if (may_log(now_ns)) log_event(LogLevel::info, "I110", "client connected peer=%s", client.name.data());
+  }
 }
 
 void ModbusServer::Loop::drop_unfinished(std::int64_t now_ns) {

@@ -59,6 +59,7 @@ class ModbusServer::Loop {
   void receive(ModbusClientSlot& client, std::int64_t now_ns);
   void serve_buffered(ModbusClientSlot& client, std::int64_t now_ns);
   [[nodiscard]] bool serve(ModbusClientSlot& client, std::span<const std::uint8_t> request, std::int64_t now_ns);
+  void tell_of_lasting_clients(std::int64_t now_ns);
   void drop_unfinished(std::int64_t now_ns);
   [[nodiscard]] bool may_log(std::int64_t now_ns);
 

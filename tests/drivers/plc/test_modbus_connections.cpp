@@ -116,6 +116,46 @@ TEST(ModbusConnections, SlowsDownAClientThatAsksTooOftenAndNobodyElse) {
   EXPECT_LT(modest_done, monotonic_ns() - 500'000'000) << "the other client must not wait for it";
 }
 
+TEST(ModbusConnections, TellsOfLastingConnectionsAlone) {
+  testing::internal::CaptureStderr();
+  {
+    std::unique_ptr<RawClient> lasting;
+    const auto server = start_server();
+    lasting = std::make_unique<RawClient>(*server);
+    for (int i = 0; i < 30; ++i) {
+      const RawClient brief(*server);
+      brief.send_bytes(read_one_input);
+      EXPECT_EQ(brief.receive_bytes().size(), 11U);
+    }
+    Bytes refused = read_one_input;
+    refused[7] = 0x63;
+    lasting->send_bytes(refused);
+    EXPECT_EQ(lasting->receive_bytes().size(), 9U);
+    std::this_thread::sleep_for(2200ms);
+  }
+  const std::string log = testing::internal::GetCapturedStderr();
+  const std::size_t connected = log.find("code=I110");
+  ASSERT_NE(connected, std::string::npos) << log;
+  EXPECT_EQ(log.find("code=I110", connected + 1), std::string::npos) << log;
+  EXPECT_EQ(log.find("code=I111"), std::string::npos) << log;
+  EXPECT_NE(log.find("code=W117"), std::string::npos) << "it must not be held back: " << log;
+}
+
+TEST(ModbusConnections, TellsThatALastingConnectionEnds) {
+  testing::internal::CaptureStderr();
+  {
+    const auto server = start_server();
+    auto lasting = std::make_unique<RawClient>(*server);
+    std::this_thread::sleep_for(2200ms);
+    lasting.reset();
+    std::this_thread::sleep_for(200ms);
+  }
+  const std::string log = testing::internal::GetCapturedStderr();
+  const std::size_t connected = log.find("code=I110");
+  const std::size_t gone = log.find("code=I111");
+  EXPECT_TRUE(connected != std::string::npos && gone != std::string::npos && connected < gone) << log;
+}
+
 TEST(ModbusConnections, RefusesClientsThatAreNotOnTheList) {
   ServerOptions options;
   options.allowed_clients = {"192.0.2.1"};
