@@ -30,7 +30,8 @@ Json pose_as_json(const RigidTransform& pose) {
 
 bool is_worth_recording(RecordWhen when, ResultCode code) {
   if (when == RecordWhen::always) return true;
-  return code != ResultCode::ok && code != ResultCode::empty_bin && code != ResultCode::given_up;
+  return code != ResultCode::ok && code != ResultCode::dry_run && code != ResultCode::empty_bin &&
+         code != ResultCode::given_up;
 }
 
 }  // namespace
@@ -57,9 +58,11 @@ RecordWriter::RecordWriter(RecordFolder folder, RecordWhen when, const std::stri
 
 void RecordWriter::offer(const Capture& capture, const PlcRequest& request, const Answer& answer,
                          const DepthFrame& empty_bin) {
-  if (request.kind != RequestKind::capture || capture.frame.depth.empty() || !capture.answered) return;
+  if (request.kind != RequestKind::capture || capture.frame.depth.empty()) return;
+  // A frame that nothing could be made of is worth a look as much as one in which nothing was found.
+  if (!capture.answered && answer.block.code != ResultCode::bad_frame) return;
   if (!is_worth_recording(when_, answer.block.code) || capture.frame.depth.size() > depth_.size()) return;
-  static_cast<void>(worker_.offer([&] {
+  const bool taken = worker_.offer([&] {
     camera_ = capture.frame.camera;
     std::copy(capture.frame.depth.begin(), capture.frame.depth.end(), depth_.begin());
     has_empty_ = empty_bin.depth.size() == capture.frame.depth.size();
@@ -75,7 +78,10 @@ void RecordWriter::offer(const Capture& capture, const PlcRequest& request, cons
     banks_ = capture.banks;
     request_ = request;
     answer_ = answer;
-  }));
+  });
+  if (taken) return;
+  log_event(LogLevel::warning, "W018", "not recorded: the last one is still being written request=%u",
+            unsigned{request.request_id});
 }
 
 Status RecordWriter::record() {

@@ -18,14 +18,17 @@ namespace graspd {
 ///   record.json       the request, what the PLC was told, digests of configuration and banks
 ///   detections.json   what `graspd detect --replayable` prints for this frame
 ///   graspd.toml       the configuration
-/// While one is being written newer ones are not taken.
+/// While one is being written newer ones are not taken, and the log says so. Recorded are captures that were answered
+/// from their frame, and those whose frame was of no use (bad_frame); not those that were given up, timed out, or that
+/// failed otherwise.
 class RecordWriter {
  public:
   /// Takes all memory that it will need for frames up to `frame_pixels`, and `instances` found or rejected.
   RecordWriter(RecordFolder folder, RecordWhen when, const std::string& configuration_file, const LoadedBanks& banks,
                std::size_t frame_pixels, std::size_t instances);
 
-  /// Copies what is to be recorded and returns; never allocates.
+  /// Copies what is to be recorded and returns; never allocates. `answer` is the one to `request`, whose frame and
+  /// detections `capture` holds.
   void offer(const Capture& capture, const PlcRequest& request, const Answer& answer, const DepthFrame& empty_bin);
 
  private:

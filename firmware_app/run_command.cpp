@@ -32,14 +32,17 @@ Status record(const RecordOptions& options) {
 
 void add_record_command(CLI::App& command_line, Status& outcome) {
   auto options = std::make_shared<RecordOptions>();
-  CLI::App* command = command_line.add_subcommand("record", "Serve the PLC and save every triggered frame");
+  CLI::App* command = command_line.add_subcommand("record", "Serve the PLC and save the frames of its triggers");
   command->add_option("--config", options->configuration, "Configuration file")->capture_default_str();
   command->add_option("-o,--output", options->folder, "Folder of recordings; is made when it is not there")->required();
   command->footer(
-      "Does what `graspd run` does, and records every request as one scene of a data set in BOP's form:\n"
+      "Does what `graspd run` does, and records each trigger that it answers as one scene of a data set in BOP's "
+      "form:\n"
       "the frame and the empty bin in every bit, request, result and all rejections, and digests of\n"
-      "configuration and banks. The quota of [record] holds; the oldest recordings go first. With\n"
-      "record.folder in the configuration, `graspd run` records failures by itself.\n"
+      "configuration and banks. Left out are requests that were reset or timed out, that failed for\n"
+      "another reason than a bad frame, and those that came while one was being written: the log tells of\n"
+      "these. The quota of [record] holds; the oldest recordings go first. With record.folder in the\n"
+      "configuration, `graspd run` records failures by itself.\n"
       "\n"
       "Examples:\n"
       "  graspd record --config graspd.toml -o records\n"

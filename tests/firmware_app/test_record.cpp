@@ -1,13 +1,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "drivers/files/atomic_file.hpp"
 #include "drivers/plc/modbus_client.hpp"
 #include "firmware_app/record_folder.hpp"
+#include "firmware_app/record_writer.hpp"
 #include "tests/firmware_app/graspd_process.hpp"
 #include "tests/firmware_app/pick_cycle_fixture.hpp"
 
@@ -86,8 +91,9 @@ TEST(Record, KeepsFailuresByItself) {
   Result<ModbusClient> plc =
       ModbusClient::connect("127.0.0.1", static_cast<std::uint16_t>(std::stoi(*port)), BlockFormat{});
   ASSERT_TRUE(plc.ok()) << plc.status().message();
-  const auto ask = [&plc](std::uint16_t id, std::uint16_t minimum_score) {
+  const auto ask = [&plc](std::uint16_t id, std::uint16_t minimum_score, bool dry_run = false) {
     ClientRequest request;
+    if (dry_run) request.options = request_option::dry_run;
     request.request_id = id;
     request.minimum_score = minimum_score;
     const Result<ResultBlock> block = plc.value().request_pick(request, patience);
@@ -98,11 +104,68 @@ TEST(Record, KeepsFailuresByItself) {
   EXPECT_EQ(ask(2, 10000), ResultCode::no_match);
   ASSERT_TRUE(daemon.wait_for("000001 request=2", patience)) << daemon.errors();
   EXPECT_EQ(ask(3, 0), ResultCode::ok);
+  EXPECT_EQ(ask(4, 0, true), ResultCode::dry_run);
   daemon.terminate();
   EXPECT_EQ(daemon.wait(), 0) << daemon.errors();
-  EXPECT_FALSE(std::filesystem::exists(folder.path("records/recorded/000002"))) << "of three requests one failed";
+  EXPECT_FALSE(std::filesystem::exists(folder.path("records/recorded/000002"))) << "of four requests one failed";
   const nlohmann::json record = nlohmann::json::parse(text_of(folder.path("records/recorded/000001/record.json")));
   EXPECT_EQ(record["result"]["code"], "no_match");
+}
+
+/// A writer in this process, over a pick cycle.
+class RecordedCycle : public testing::Test {
+ protected:
+  void record(RecordWhen when, const std::vector<const Answer*>& answers) {
+    RecordSettings settings;
+    settings.folder = folder_.path("records");
+    Result<RecordFolder> records = RecordFolder::open(settings);
+    ASSERT_TRUE(records.ok()) << records.status().message();
+    RecordWriter writer(std::move(records).value(), when, "", LoadedBanks{}, fixture_.source.scene.depth.size(), 100);
+    for (const Answer* answer : answers) {
+      PlcRequest request;
+      request.request_id = answer->block.request_id;
+      writer.offer(fixture_.cycle.capture, request, *answer, fixture_.source.empty_bin());
+    }
+  }
+  [[nodiscard]] bool has(const std::string& recording) const {
+    return std::filesystem::exists(folder_.path("records/recorded/" + recording + "/record.json"));
+  }
+
+  TemporaryFolder folder_;
+  PickCycleFixture fixture_{angle_bar_scene()};
+};
+
+TEST_F(RecordedCycle, SaysWhatIsLeftOutWhileOneIsBeingWritten) {
+  const Answer first = fixture_.ask();
+  Answer second = first;
+  second.block.request_id = 777;
+  testing::internal::CaptureStderr();
+  record(RecordWhen::always, {&first, &second});
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(log, HasSubstr("code=W018 not recorded: the last one is still being written request=777\n"));
+  EXPECT_TRUE(has("000001"));
+  EXPECT_FALSE(has("000002"));
+}
+
+TEST_F(RecordedCycle, KeepsAFrameOfNoUse) {
+  std::fill(fixture_.source.scene.depth.begin(), fixture_.source.scene.depth.end(), 0.0F);
+  const Answer blind = fixture_.ask();
+  ASSERT_EQ(blind.block.code, ResultCode::bad_frame);
+  record(RecordWhen::failure, {&blind});
+  EXPECT_TRUE(has("000001"));
+}
+
+TEST_F(RecordedCycle, KeepsNothingThatWasGivenUpOrHasNoFrame) {
+  fixture_.plc.wanted = false;
+  const Answer given_up = fixture_.ask();
+  ASSERT_EQ(given_up.block.code, ResultCode::given_up);
+  record(RecordWhen::always, {&given_up});
+  fixture_.plc.wanted = true;
+  fixture_.source.failure = Status(StatusCode::bad_frame, "it came in part");
+  const Answer none = fixture_.ask();
+  ASSERT_EQ(none.block.code, ResultCode::bad_frame);
+  record(RecordWhen::always, {&none});
+  EXPECT_FALSE(has("000001"));
 }
 
 TEST(Record, KeepsItsQuota) {
