@@ -132,7 +132,6 @@ void put_picks(PickCycle& cycle, const PlcRequest& request, std::size_t usable, 
   block.pick = first.pick;
   block.approach = pick.robot_from_approach;
   block.part_pose = pick.robot_from_part;
-  block.frame = cycle.settings.calibrated ? PoseFrame::robot : PoseFrame::camera;
   block.approach_distance = cycle.settings.grasp.approach_distance;
   if (request.dry_run) return;
   capture.given += count;
@@ -190,8 +189,9 @@ std::size_t find_next_picks(PickCycle& cycle, const PlcRequest& request) {
   }
 }
 
-ResultBlock begin_block(const PlcRequest& request) {
+ResultBlock begin_block(const PickCycle& cycle, const PlcRequest& request) {
   ResultBlock block;
+  block.frame = cycle.settings.calibrated ? PoseFrame::robot : PoseFrame::camera;
   block.sequence = request.sequence;
   block.request_id = request.request_id;
   return block;
@@ -209,15 +209,16 @@ void finish_times(const PickCycle& cycle, const PlcRequest& request, ResultBlock
 }
 
 Answer failed(const PickCycle& cycle, const PlcRequest& request, const Status& status) {
-  Answer answer{begin_block(request), status};
+  Answer answer{begin_block(cycle, request), status};
   answer.block.code = result_code(status.code());
   finish_times(cycle, request, answer.block);
   return answer;
 }
 
-Answer given_up(const PlcRequest& request) {
-  Answer answer{begin_block(request), {}};
+Answer given_up(const PickCycle& cycle, const PlcRequest& request) {
+  Answer answer{begin_block(cycle, request), {}};
   answer.block.code = ResultCode::given_up;
+  finish_times(cycle, request, answer.block);
   return answer;
 }
 
@@ -242,7 +243,7 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
   if (!grabbed.ok()) return failed(cycle, request, grabbed);
   plc.capture_done(request.sequence);
   const std::int64_t taken = now();
-  if (!plc.is_wanted(request.sequence)) return given_up(request);
+  if (!plc.is_wanted(request.sequence)) return given_up(cycle, request);
 
   const Status detected =
       detect(capture.frame, detect_request(cycle, request), resolved.detect, cycle.memory.detect, capture.detections);
@@ -252,11 +253,11 @@ Answer answer_capture(PickCycle& cycle, const PlcRequest& request, PlcLink& plc)
                cycle.memory.avoided.places());
   capture.picks = find_picks(cycle.memory.grasp, picks_needed(cycle.settings, request, 0));
   // What the PLC will not be told of must not count as told: neither for `next` nor as the last place.
-  if (!plc.is_wanted(request.sequence)) return given_up(request);
+  if (!plc.is_wanted(request.sequence)) return given_up(cycle, request);
   cycle.memory.avoided.age();
   capture.answered = true;
 
-  Answer answer{begin_block(request), {}};
+  Answer answer{begin_block(cycle, request), {}};
   put_verdict(capture, answer.block);
   if (capture.picks.found) put_picks(cycle, request, capture.picks.picks.size(), answer.block);
   set_time(answer.block, BlockStage::capture, taken - start);
@@ -275,7 +276,7 @@ Answer answer_next(PickCycle& cycle, const PlcRequest& request, const PlcLink& p
     return failed(cycle, request, served);
   }
   if (request.avoid_last_place) avoid_last_place(cycle);
-  Answer answer{begin_block(request), {}};
+  Answer answer{begin_block(cycle, request), {}};
   std::size_t usable = 0;
   if (capture.answered) {
     const std::int64_t start = cycle.settings.now_ns();
@@ -283,7 +284,7 @@ Answer answer_next(PickCycle& cycle, const PlcRequest& request, const PlcLink& p
     set_time(answer.block, BlockStage::grasp, cycle.settings.now_ns() - start);
     put_verdict(capture, answer.block);
   }
-  if (!plc.is_wanted(request.sequence)) return given_up(request);
+  if (!plc.is_wanted(request.sequence)) return given_up(cycle, request);
   if (usable > 0) {
     put_picks(cycle, request, usable, answer.block);
   } else {

@@ -58,9 +58,12 @@ void on_coils(HandshakeState& state, const HandshakeInputs& coils, std::int64_t 
   if (coils.next && !before.next) request(state, RequestKind::next, now_ns, options, actions);
 }
 
-void on_heartbeat(HandshakeState& state, std::uint16_t value, std::int64_t now_ns, HandshakeActions& actions) {
+void on_heartbeat(HandshakeState& state, std::uint16_t value, std::int64_t now_ns, const HandshakeOptions& options,
+                  HandshakeActions& actions) {
   if (value == state.heartbeat) return;
   state.heartbeat = value;
+  // Nobody would notice its end.
+  if (options.heartbeat_timeout_ns <= 0) return;
   state.heartbeat_ns = now_ns;
   actions.plc_back = !state.plc_alive;
   state.plc_alive = true;
@@ -167,7 +170,7 @@ HandshakeActions step(HandshakeState& state, const HandshakeEvent& event, std::i
       on_coils(state, event.coils, now_ns, options, actions);
       break;
     case HandshakeEvent::Kind::heartbeat:
-      on_heartbeat(state, event.heartbeat, now_ns, actions);
+      on_heartbeat(state, event.heartbeat, now_ns, options, actions);
       break;
     case HandshakeEvent::Kind::found:
       state.coils = event.coils;

@@ -130,6 +130,8 @@ HandshakeActions PlcSession::take(const HandshakeEvent& event, std::int64_t now_
     late.sequence = state_.sequence;
     late.request_id = request_id_;
     late.code = ResultCode::deadline;
+    const auto total_ns = static_cast<double>(now_ns - state_.started_ns);
+    late.stage_time[static_cast<std::size_t>(BlockStage::total)] = static_cast<float>(total_ns * 1e-9);
     commit(late);
   }
   log(actions, now_ns);

@@ -208,6 +208,20 @@ TEST(PickCycle, PosesComeInTheRobotsFrameWhenCalibrated) {
   EXPECT_LT((expected.translation - in_robot.part_pose.translation).norm(), 1e-4F);
 }
 
+TEST(PickCycle, AnswersWithoutPosesNameTheFrameAndTheTimeToo) {
+  PickCycleFixture fixture(angle_bar_scene());
+  fixture.cycle.settings.calibrated = true;
+  const auto expect_both = [](const ResultBlock& block, ResultCode code) {
+    EXPECT_EQ(block.code, code);
+    EXPECT_EQ(block.frame, PoseFrame::robot);
+    EXPECT_GT(block.stage_time[static_cast<std::size_t>(BlockStage::total)], 0.0F);
+  };
+  expect_both(fixture.ask(RequestKind::next).block, ResultCode::nothing_left);
+  expect_both(fixture.ask(RequestKind::capture, 99).block, ResultCode::bad_request);
+  fixture.plc.wanted = false;
+  expect_both(fixture.ask().block, ResultCode::given_up);
+}
+
 TEST(PickCycle, WarmUpLeavesNothingToPick) {
   PickCycleFixture fixture(angle_bar_scene());
   EXPECT_TRUE(warm_up(fixture.cycle).ok());

@@ -155,6 +155,14 @@ TEST(Handshake, SilentPlcClearsResultValidAndIsRefused) {
   EXPECT_TRUE(bench.out().plc_alive);
 }
 
+TEST(Handshake, HeartbeatThatNobodyWatchesIsNotSaidToBeat) {
+  Bench bench;
+  bench.make_ready();
+  EXPECT_FALSE(bench.take(HandshakeEvent::of_heartbeat(1)).plc_back);
+  EXPECT_FALSE(bench.out().plc_alive) << "it could never go out";
+  EXPECT_TRUE(bench.out().ready);
+}
+
 TEST(Handshake, AnswerToAPlcThatWasSilentMeanwhileIsNotValid) {
   Bench bench;
   bench.options.heartbeat_timeout_ns = second;

@@ -63,7 +63,7 @@ struct Walk {
     const std::uint16_t refused = bench.state.refused;
     const HandshakeActions actions = bench.take(event_of(move));
     pass_time(actions);
-    if (move == beat) {
+    if (move == beat && bench.options.heartbeat_timeout_ns > 0) {
       model.alive = true;
       model.beat_ns = bench.now_ns;
     }

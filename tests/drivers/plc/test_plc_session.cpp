@@ -102,6 +102,14 @@ TEST(PlcSession, CountsNoAnswerThatThePlcDidNotGet) {
   EXPECT_EQ(cell.overhead(), 0) << "nobody waits for this answer";
 }
 
+TEST(PlcSession, TellsHowLongARequestTookThatTimedOut) {
+  Cell cell({0, second});
+  cell.trigger(seen_ns);
+  cell.session().on_time(true, true, seen_ns + 1001 * millisecond);
+  EXPECT_EQ(cell.result_code(), static_cast<std::uint16_t>(ResultCode::deadline));
+  EXPECT_EQ(cell.register_at(block::time_total), 1001);
+}
+
 TEST(PlcSession, SilentPlcWaitsForNoPick) {
   Cell cell({second, 0});
   cell.beat(seen_ns);
