@@ -45,7 +45,7 @@ template <class Condition>
   return comes([&] { return plc.has(input) == level; });
 }
 
-inline void acknowledge(PlcStandIn& plc) {
+inline void acknowledge_answer(PlcStandIn& plc) {
   plc.set_coil(coil::trigger, false);
   plc.set_coil(coil::acknowledge, true);
   EXPECT_TRUE(shows(plc, discrete_input::done, false));

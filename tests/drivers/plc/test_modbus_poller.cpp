@@ -32,7 +32,7 @@ TEST(ModbusPoller, GoesThroughTheHandshake) {
     EXPECT_EQ(block.value().tool, 6);
     EXPECT_EQ(block.value().sequence, id - 99);
     EXPECT_NEAR(block.value().pick.translation.x(), static_cast<float>(block.value().sequence) / 1000.0F, 1e-6F);
-    acknowledge(plc);
+    acknowledge_answer(plc);
   }
   EXPECT_EQ(worker.requests.load(), 10);
 }
@@ -105,7 +105,7 @@ TEST(ModbusPoller, NeverShowsDoneWithABlockThatIsNotWhole) {
           comes([&] { return plc.live(live_register::sequence) == before + 1 && plc.has(discrete_input::done); }));
       plc.set_coil(coil::next, false);
     }
-    acknowledge(plc);
+    acknowledge_answer(plc);
   }
   EXPECT_EQ(wrong.load(), 0);
   EXPECT_GT(seen_done.load(), 20);
@@ -155,7 +155,7 @@ TEST_P(PollerFaults, LoseThePlcClearResultValidAndAreGotOver) {
   ASSERT_TRUE(shows(plc, discrete_input::result_valid, false)) << "what was told before the loss is not valid";
   ASSERT_TRUE(shows(plc, discrete_input::done));
   EXPECT_EQ(worker.requests.load(), 1) << "the trigger was up all the time: one edge";
-  acknowledge(plc);
+  acknowledge_answer(plc);
   plc.set_coil(coil::trigger, true);
   ASSERT_TRUE(shows(plc, discrete_input::result_valid));
   EXPECT_EQ(worker.requests.load(), 2);
