@@ -32,9 +32,9 @@ struct Clusters : testing::Test {
   }
   void cluster() { cluster_hypotheses(hypotheses, bank, parameters, {}, workspace, clusters); }
   /// A pose whose part is turned and shifted about its centre.
-  [[nodiscard]] RigidTransform near(const RigidTransform& pose, float turn, const Vector3& shift) const {
+  [[nodiscard]] RigidTransform near(const RigidTransform& place, float turn, const Vector3& shift) const {
     const RigidTransform turned = turn_about({Vector3(0.6F, 0.0F, 0.8F), part.centre}, turn);
-    const RigidTransform result = pose * turned;
+    const RigidTransform result = place * turned;
     return {result.rotation, result.translation + shift};
   }
 
