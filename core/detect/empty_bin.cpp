@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "core/detect/parallel_for.hpp"
 #include "core/detect/scene_map.hpp"
@@ -27,14 +28,36 @@ void mix(const float* pixels, WordBlock& state) {
   }
 }
 
-/// Bridges the gaps of a row. Only a row in which nothing was measured stays empty.
+constexpr float unknown = std::numeric_limits<float>::infinity();
+/// Marks a cell that was not measured and whose gap is wide along its column.
+constexpr float wide_gap = -1.0F;
+
+/// The widest gap between two depths that a wall's shadow makes in a line of so many cells. A floor that the sensor
+/// does not see at all is no shadow, and may lie deeper than what stands around it.
+int widest_shadow(int cells) { return cells / 8; }
+
+/// Marks the gaps of a column that are too wide for a shadow.
+void mark_column(const Camera& camera, int u, std::span<float> depths) {
+  int begin = 0;  // Of the gap in hand.
+  for (int v = 0; v < camera.height; ++v) {
+    if (depths[camera.index(u, v)] <= 0.0F) continue;
+    const bool is_wide = begin > 0 && v - begin > widest_shadow(camera.height);
+    for (; is_wide && begin < v; ++begin) depths[camera.index(u, begin)] = wide_gap;
+    begin = v + 1;
+  }
+}
+
+/// Bridges the gaps of a row; what is wide along row and column is unknown. Only a row in which nothing was measured
+/// stays empty.
 void bridge_row(std::span<float> row) {
+  const auto widest = static_cast<std::size_t>(widest_shadow(static_cast<int>(row.size())));
   std::size_t begin = 0;  // Of the gap in hand.
   for (std::size_t i = 0; i < row.size(); ++i) {
     const float depth = row[i];
     if (depth <= 0.0F) continue;
     const float nearest = begin == 0 ? depth : std::min(row[begin - 1], depth);
-    for (; begin < i; ++begin) row[begin] = nearest;
+    const bool is_wide = begin > 0 && i - begin > widest;
+    for (; begin < i; ++begin) row[begin] = is_wide && row[begin] < 0.0F ? unknown : nearest;
     begin = i + 1;
   }
   for (std::size_t i = begin; begin > 0 && i < row.size(); ++i) row[i] = row[begin - 1];
@@ -97,6 +120,8 @@ void keep_empty_bin(const DepthFrame& frame, int stride, const Execution& execut
 void find_nearest_background(const Camera& camera, const Execution& execution, std::span<float> depths,
                              std::span<float> nearest) {
   const auto width = static_cast<std::size_t>(camera.width);
+  parallel_for(camera.width, execution, 8, [&](int u) { mark_column(camera, u, depths); });
+  if (execution.late()) return;
   parallel_for(camera.height, execution, 8, [&](int v) { bridge_row(depths.subspan(camera.index(0, v), width)); });
   if (execution.late()) return;
   bridge_empty_rows(camera, depths);

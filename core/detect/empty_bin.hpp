@@ -33,7 +33,7 @@ struct EmptyBinOrigin {
 struct EmptyBin {
   std::span<EmptyBinOrigin> origin;  ///< One.
   std::span<float> depths;           ///< Metres; 0: not measured.
-  std::span<float> nearest;          ///< The least depth at the cell and around it, gaps bridged; 0: nothing measured.
+  std::span<float> nearest;  ///< The least depth at the cell and around it, gaps bridged; 0 or infinite: unknown.
 };
 
 [[nodiscard]] EmptyBin carve_empty_bin(Arena& arena, std::size_t cells);
@@ -45,7 +45,8 @@ void keep_empty_bin(const DepthFrame& frame, int stride, const Execution& execut
 
 /// Writes EmptyBin::nearest. Gaps in `depths` are bridged in place: in a row with the nearer of the depths at their
 /// ends, as in the shadow of a wall anything down to its rim may be wall; rows without any likewise with the rows
-/// beside them.
+/// beside them. A gap between depths that is wider than an eighth of the map along both its row and its columns is no
+/// shadow: nothing is known of the background there.
 void find_nearest_background(const Camera& camera, const Execution& execution, std::span<float> depths,
                              std::span<float> nearest);
 

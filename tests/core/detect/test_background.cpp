@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "core/detect/background.hpp"
@@ -10,6 +11,19 @@ namespace graspd {
 namespace {
 
 constexpr float margin = 0.05F;
+
+constexpr float unknown = std::numeric_limits<float>::infinity();
+
+/// Marks what was not measured in gaps between depths that are longer than an eighth of the line.
+void mark_wide_gaps(const std::vector<float*>& line, std::vector<bool>& wide, std::size_t first, std::size_t step) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    std::size_t begin = i;
+    std::size_t end = i;
+    while (begin > 0 && *line[begin - 1] <= 0.0F) --begin;
+    while (end < line.size() && *line[end] <= 0.0F) ++end;
+    wide[first + i * step] = *line[i] <= 0.0F && begin > 0 && end < line.size() && end - begin > line.size() / 8;
+  }
+}
 
 /// Bridges the gaps of a line with the nearer of the depths at their ends.
 void bridge(std::vector<float*> line) {
@@ -29,10 +43,23 @@ std::vector<bool> expected_foreground(const SceneMap& empty, const SceneMap& map
   const Camera& camera = map.camera;
   std::vector<float> depth;
   for (const MapCell& cell : empty.cells) depth.push_back(cell.point.z());
-  for (int v = 0; v < camera.height; ++v) {
+  const auto row_of = [&](int v) {
     std::vector<float*> row;
     for (int u = 0; u < camera.width; ++u) row.push_back(&depth[camera.index(u, v)]);
-    bridge(row);
+    return row;
+  };
+  const auto width = static_cast<std::size_t>(camera.width);
+  std::vector<bool> wide_in_row(depth.size());
+  std::vector<bool> wide_in_column(depth.size());
+  for (int v = 0; v < camera.height; ++v) mark_wide_gaps(row_of(v), wide_in_row, camera.index(0, v), 1);
+  for (int u = 0; u < camera.width; ++u) {
+    std::vector<float*> column;
+    for (int v = 0; v < camera.height; ++v) column.push_back(&depth[camera.index(u, v)]);
+    mark_wide_gaps(column, wide_in_column, camera.index(u, 0), width);
+  }
+  for (int v = 0; v < camera.height; ++v) bridge(row_of(v));
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (wide_in_row[i] && wide_in_column[i]) depth[i] = unknown;
   }
   for (int u = 0; u < camera.width; ++u) {
     std::vector<float*> column;
@@ -42,7 +69,7 @@ std::vector<bool> expected_foreground(const SceneMap& empty, const SceneMap& map
   std::vector<bool> foreground;
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
-      float nearest = 1e6F;
+      float nearest = unknown;
       for (int y = v - 1; y <= v + 1; ++y) {
         for (int x = u - 1; x <= u + 1; ++x) {
           if (camera.contains(x, y) && depth[camera.index(x, y)] > 0.0F)
@@ -50,7 +77,7 @@ std::vector<bool> expected_foreground(const SceneMap& empty, const SceneMap& map
         }
       }
       const MapCell& cell = map.at(u, v);
-      foreground.push_back(cell.measured() && (nearest == 1e6F || cell.point.z() < nearest - margin));
+      foreground.push_back(cell.measured() && cell.point.z() < nearest - margin);
     }
   }
   return foreground;
@@ -76,6 +103,27 @@ TEST(BackgroundByFrame, IsBridgedAndJudgedByTheNearestAround) {
       EXPECT_EQ(scene.cells[i].background, empty.cells[i].point.z());
     }
   }
+}
+
+TEST(BackgroundByFrame, FloorThatWasNotMeasuredHidesNoParts) {
+  RandomMap empty(64, 48, 5, 1.0);
+  RandomMap scene(64, 48, 6, 1.0);
+  for (int v = 0; v < 48; ++v) {
+    for (int u = 0; u < 64; ++u) {
+      const bool wall = u < 8 || u >= 56 || v < 6 || v >= 42;
+      empty.map.at(u, v).point.z() = wall ? 0.60F : 0.0F;
+      scene.map.at(u, v).point.z() = wall ? 0.60F : 0.75F;
+    }
+  }
+  std::vector<float> depths;
+  for (const MapCell& cell : empty.cells) depths.push_back(cell.point.z());
+  std::vector<float> bridged = depths;
+  std::vector<float> nearest(depths.size());
+  find_nearest_background(empty.map.camera, {2}, bridged, nearest);
+  remove_background_by_frame({{}, depths, nearest}, margin, {2}, scene.map);
+  EXPECT_EQ(scene.map.at(2, 24).foreground, 0U);
+  EXPECT_EQ(scene.map.at(32, 2).foreground, 0U);
+  EXPECT_NE(scene.map.at(32, 24).foreground, 0U) << "deeper than the walls' rims";
 }
 
 }  // namespace
