@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/detect/edge_blur.hpp"
 #include "core/detect/narrowing.hpp"
 #include "core/detect/parallel_for.hpp"
 #include "core/detect/refine.hpp"
@@ -158,8 +159,7 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
   for (const Bank& bank : request.banks) finest = std::min(finest, bank.part->detail);
   // What is late is left, whatever stage it has come to: only what was verified is an answer.
   const Execution execution{parameters.threads, request.now_ns, request.deadline_ns};
-  const Scene scene =
-      preprocess(frame, request.empty_bin, finest, parameters.preprocess, execution, workspace.preprocess);
+  Scene scene = preprocess(frame, request.empty_bin, finest, parameters.preprocess, execution, workspace.preprocess);
   detections.measured_pixels = scene.measured_pixels;
   detections.foreground_pixels =
       scene.foreground_cells * static_cast<std::uint32_t>(scene.map.stride * scene.map.stride);
@@ -172,6 +172,7 @@ Status detect(const DepthFrame& frame, const DetectRequest& request, const Detec
   for (std::uint32_t b = 0; b < request.banks.size() && !out_of_time(); ++b) {
     const Bank& bank = request.banks[b];
     const float reach = bank.grid.distance_step * static_cast<float>(bank.grid.distance_bins);
+    know_edge_blur(frame, bank.part->detail, execution, scene.map.edge_blurs);
     const NeighbourGrid points = sample_for(scene, bank.part->sampling, reach, execution, workspace.preprocess);
     clock.end_of(Stage::preprocess);
     if (execution.late()) break;

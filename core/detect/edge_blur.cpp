@@ -68,4 +68,9 @@ float measure_edge_blur(const DepthFrame& frame, float detail, const Execution& 
   return sum.steps < fewest_steps ? 0.0F : static_cast<float>(sum.width / sum.steps);
 }
 
+void know_edge_blur(const DepthFrame& frame, float detail, const Execution& execution, EdgeBlurs& blurs) {
+  if (blurs.count == blurs.known.size() || blurs.knows(detail)) return;
+  blurs.known[blurs.count++] = {detail, measure_edge_blur(frame, detail, execution)};
+}
+
 }  // namespace graspd

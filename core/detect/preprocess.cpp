@@ -61,7 +61,7 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float det
   scene.map = make_scene_map(frame.camera, stride, workspace.map_cells);
   bin_frame(frame, execution, workspace.depths, scene.map);
   if (execution.late()) return scene;
-  scene.map.edge_blur = measure_edge_blur(frame, detail, execution);
+  know_edge_blur(frame, detail, execution, scene.map.edge_blurs);
   if (execution.late()) return scene;
 
   const bool by_frame = parameters.background == BackgroundMode::automatic && !empty_bin.depth.empty();

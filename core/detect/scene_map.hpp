@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -21,12 +23,41 @@ struct MapCell {
   [[nodiscard]] bool has_normal() const { return normal.z() != 0.0F; }
 };
 
+/// How far the sensor smears depth steps sideways, seen at the scales of parts: a small part's does not show how wide a
+/// ramp is beside a large one.
+struct EdgeBlurs {
+  struct AtScale {
+    float detail = 0;  ///< Metres.
+    float width = 0;   ///< Metres.
+  };
+  std::array<AtScale, 8> known;
+  std::size_t count = 0;
+
+  [[nodiscard]] bool knows(float detail) const {
+    constexpr float nearly = 1.1F;
+    const float scale = nearest(detail).detail;
+    return count > 0 && scale <= nearly * detail && detail <= nearly * scale;
+  }
+  /// The width at the scale nearest to that of a part; 0 when none was measured.
+  [[nodiscard]] float width(float detail) const { return nearest(detail).width; }
+
+ private:
+  [[nodiscard]] AtScale nearest(float detail) const {
+    const auto* const end = known.data() + count;
+    const auto* const found = std::min_element(known.data(), end, [&](const AtScale& a, const AtScale& b) {
+      return std::max(a.detail, detail) * std::min(b.detail, detail) <
+             std::max(b.detail, detail) * std::min(a.detail, detail);
+    });
+    return found == end ? AtScale{} : *found;
+  }
+};
+
 /// The scene as an image of surface points, binned so that a cell is a fixed share of a voxel. All
 /// stages after the preprocessing look here: a point is found by projecting it.
 struct SceneMap {
-  Camera camera;        ///< Of the map: one pixel is one cell.
-  int stride = 1;       ///< Frame pixels along the edge of a cell.
-  float edge_blur = 0;  ///< How far the sensor smears depth steps sideways (metres).
+  Camera camera;   ///< Of the map: one pixel is one cell.
+  int stride = 1;  ///< Frame pixels along the edge of a cell.
+  EdgeBlurs edge_blurs;
   std::span<MapCell> cells;
 
   [[nodiscard]] MapCell& at(int u, int v) { return cells[camera.index(u, v)]; }

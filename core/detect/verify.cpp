@@ -134,7 +134,7 @@ float share_inside(const SceneMap& map, const Bank& bank, const RigidTransform& 
 float blur_of(const SceneMap& map, float detail) {
   constexpr float sharp = 0.17F;
   constexpr float blurred = 0.83F;
-  return std::clamp((map.edge_blur / detail - sharp) / (blurred - sharp), 0.0F, 1.0F);
+  return std::clamp((map.edge_blurs.width(detail) / detail - sharp) / (blurred - sharp), 0.0F, 1.0F);
 }
 
 bool touches_border(const ImageRectangle& rectangle, const Camera& camera) {

@@ -44,6 +44,21 @@ TEST(EdgeBlur, LooksAtStepsOfThePartsSizeOnly) {
   EXPECT_EQ(measure_edge_blur(Plateaus(10, 0.1F).frame(), detail), 0.0F);
 }
 
+TEST(EdgeBlur, IsKnownAtTheScaleOfEachPart) {
+  constexpr float small = 0.0006F;
+  Plateaus plateaus(10);
+  EdgeBlurs blurs;
+  know_edge_blur(plateaus.frame(), small, {}, blurs);
+  EXPECT_EQ(blurs.width(detail), 0.0F) << "the only scale so far";
+  know_edge_blur(plateaus.frame(), detail, {}, blurs);
+  EXPECT_EQ(blurs.count, 2U);
+  EXPECT_EQ(blurs.width(detail), measure_edge_blur(plateaus.frame(), detail));
+  EXPECT_EQ(blurs.width(small), 0.0F);
+  EXPECT_GT(blurs.width(detail), 0.0F);
+  know_edge_blur(plateaus.frame(), 1.05F * detail, {}, blurs);
+  EXPECT_EQ(blurs.count, 2U) << "nearly the same";
+}
+
 TEST(EdgeBlur, IsNothingWhereNothingWasMeasuredBetweenTheSurfaces) {
   Plateaus plateaus(10);
   for (float& z : plateaus.depth) z = z > 0.4801F && z < 0.4999F ? 0.0F : z;
