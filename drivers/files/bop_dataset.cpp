@@ -8,6 +8,7 @@
 
 #include "drivers/files/depth_image.hpp"
 #include "drivers/files/json_file.hpp"
+#include "drivers/files/measured_depth.hpp"
 
 namespace graspd {
 
@@ -260,16 +261,14 @@ Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id, const fs::p
   frame.name = path.string();
   const Status read = load_depth(path, image->depth_scale, frame.camera, frame.depth);
   if (!read.ok()) return read;
-  if (std::all_of(frame.depth.begin(), frame.depth.end(), [](float z) { return z == 0.0F; })) {
-    return Status::format(StatusCode::bad_frame, "%s: no pixel is measured: was the camera covered or its light off?",
-                          path.c_str());
-  }
+  if (Status measured = check_measured(frame.depth, path); !measured.ok()) return measured;
   fs::path empty_path = empty_file;
   if (empty_path.empty()) empty_path = find_depth_file(scene.folder / "empty" / bop_number(im_id));
   if (empty_path.empty()) empty_path = find_depth_file(scene.folder / "empty" / bop_number(0));
   if (!empty_path.empty()) {
     const Status read_empty = load_depth(empty_path, image->depth_scale, frame.camera, frame.empty_depth);
     if (!read_empty.ok()) return read_empty;
+    if (Status measured = check_measured(frame.empty_depth, empty_path); !measured.ok()) return measured;
   }
   return frame;
 }

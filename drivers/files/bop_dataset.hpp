@@ -90,7 +90,7 @@ struct BopResult {
 
 /// Reads the depth of one image (depth/000000.png, .tif or .tiff) with `empty_file` as the empty bin; when none is
 /// named with the scene's own if there is one (empty/<image> or else empty/000000). Fails with bad_file, or with
-/// bad_frame when nothing in the image is measured or the empty frame has another size.
+/// bad_frame when the empty frame has another size, or nothing in either is measured at a distance at which bins stand.
 [[nodiscard]] Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id,
                                                  const std::filesystem::path& empty_file = {});
 

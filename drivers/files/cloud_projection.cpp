@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "drivers/files/measured_depth.hpp"
 #include "drivers/files/virtual_camera.hpp"
 
 namespace graspd {
@@ -47,8 +48,6 @@ class PixelFit {
 
 /// Judges the points before the camera: their median depth must be one at which bins stand.
 Status check_distance(std::vector<Vector3>& usable, std::size_t behind) {
-  constexpr float nearest = 0.02F;
-  constexpr float farthest = 50.0F;
   if (usable.size() <= behind) {
     return Status(StatusCode::bad_frame, behind == 0
                                              ? "no point of the cloud is measured"
@@ -57,9 +56,9 @@ Status check_distance(std::vector<Vector3>& usable, std::size_t behind) {
   const auto middle = usable.begin() + static_cast<std::ptrdiff_t>(usable.size() / 2);
   std::nth_element(usable.begin(), middle, usable.end(),
                    [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
-  if (middle->z() >= nearest && middle->z() <= farthest) return {};
+  if (is_bin_distance(middle->z())) return {};
   return Status::format(StatusCode::bad_frame, "the cloud lies %g metres away: is its unit %s?",
-                        static_cast<double>(middle->z()), middle->z() < nearest ? "m, not mm" : "mm, not m");
+                        static_cast<double>(middle->z()), middle->z() < 1.0F ? "m, not mm" : "mm, not m");
 }
 
 /// The depth at an empty pixel that one surface surrounds, or 0.

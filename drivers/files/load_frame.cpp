@@ -9,6 +9,7 @@
 #include "drivers/files/camera_file.hpp"
 #include "drivers/files/cloud_file.hpp"
 #include "drivers/files/depth_image.hpp"
+#include "drivers/files/measured_depth.hpp"
 
 namespace graspd {
 
@@ -85,6 +86,7 @@ Result<LoadedFrame> load_image(const fs::path& path, const FrameFileOptions& opt
     const Status empty =
         load_depth(options.empty_file, description.value().depth_scale, frame.camera, frame.empty_depth);
     if (!empty.ok()) return empty;
+    if (Status measured = check_measured(frame.empty_depth, options.empty_file); !measured.ok()) return measured;
   }
   return frame;
 }
@@ -118,6 +120,11 @@ Result<LoadedFrame> load_cloud(const fs::path& path, const FrameFileOptions& opt
     frame.value().empty_depth.resize(frame.value().camera.pixel_count());
     project_cloud(empty.value().points, frame.value().camera, frame.value().empty_depth);
     close_small_holes(frame.value().camera, frame.value().empty_depth);
+    if (median_depth(frame.value().empty_depth) == 0.0F) {
+      return Status::format(StatusCode::bad_frame,
+                            "%s: no point of the empty bin lies where the camera of the other frame looks",
+                            options.empty_file.c_str());
+    }
   }
   return frame;
 }
@@ -151,11 +158,7 @@ Result<LoadedFrame> load_frame(const fs::path& path, const FrameFileOptions& opt
   if (!is_there(path)) return Status::format(StatusCode::bad_file, "cannot read %s: No such file", path.c_str());
   Result<LoadedFrame> frame = load_any(path, options);
   if (!frame.ok()) return frame;
-  const std::vector<float>& depth = frame.value().depth;
-  if (std::all_of(depth.begin(), depth.end(), [](float z) { return z == 0.0F; })) {
-    return Status::format(StatusCode::bad_frame, "%s: no pixel is measured: was the camera covered or its light off?",
-                          path.c_str());
-  }
+  if (Status measured = check_measured(frame.value().depth, path); !measured.ok()) return measured;
   frame.value().name = path.string();
   return frame;
 }

@@ -25,8 +25,8 @@ struct FrameFileOptions {
 /// A depth image takes its intrinsics from the camera file of `options`, else from the BOP scene that it
 /// lies in (scene_camera.json in the folder above), which also gives the scene's empty frame, else from a
 /// camera.json beside it or in the folder above.
-/// Fails with bad_file for what cannot be read or has no intrinsics, with bad_frame for a wrong size or
-/// a frame that is all invalid.
+/// Fails with bad_file for what cannot be read or has no intrinsics, with bad_frame for a wrong size, for a
+/// frame that is all invalid or at whose distance no bin stands, and for an empty frame that is either.
 [[nodiscard]] Result<LoadedFrame> load_frame(const std::filesystem::path& path, const FrameFileOptions& options);
 
 }  // namespace graspd

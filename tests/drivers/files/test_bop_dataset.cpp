@@ -149,6 +149,12 @@ TEST_F(BopDataset, BadFramesAreRefused) {
   folder_.write_depth("val/000003/empty/000000.png", 9000, 4);
   EXPECT_THAT(refusal(load_bop_frame(scene, 7), StatusCode::bad_frame),
               HasSubstr("4 x 6 pixels, but the camera has 8 x 6"));
+  folder_.write_depth("val/000003/empty/000000.png", 0);
+  EXPECT_THAT(refusal(load_bop_frame(scene, 7), StatusCode::bad_frame),
+              HasSubstr("empty/000000.png: no pixel is measured"));
+  folder_.write_depth("val/000003/depth/000007.png", 100);
+  EXPECT_THAT(refusal(load_bop_frame(scene, 7), StatusCode::bad_frame),
+              HasSubstr("depth/000007.png: what it shows lies 0.01 metres away"));
   folder_.write_depth("val/000003/depth/000007.png", 0);
   EXPECT_THAT(refusal(load_bop_frame(scene, 7), StatusCode::bad_frame), HasSubstr("no pixel is measured"));
   fs::remove(folder_.scene() / "depth" / "000007.png");

@@ -95,5 +95,34 @@ TEST_F(LoadFrame, BadFramesAreRefused) {
               HasSubstr("dark.png: no pixel is measured"));
 }
 
+TEST_F(LoadFrame, AScaleThatPutsTheBinOutOfReachIsRefused) {
+  folder_.write_depth("loose/a.png", 5000);
+  const fs::path image = folder_.root() / "loose" / "a.png";
+  const auto with_scale = [&](const std::string& scale) {
+    folder_.write("loose/camera.json", R"({"fx": 6, "fy": 6, "cx": 4, "cy": 3, "depth_scale": )" + scale + "}");
+    return refusal(image, {}, StatusCode::bad_frame);
+  };
+  EXPECT_THAT(with_scale("100"), HasSubstr("a.png: what it shows lies 500 metres away: is depth_scale"));
+  EXPECT_THAT(with_scale("0.001"), HasSubstr("a.png: what it shows lies 0.005 metres away"));
+}
+
+TEST_F(LoadFrame, EmptyBinThatShowsNothingOrIsOutOfReachIsRefused) {
+  FrameFileOptions options;
+  options.camera_file = folder_.write("mine.json", camera_json);
+  const fs::path image = folder_.scene() / "depth" / "000007.png";
+  folder_.write_depth("dark.png", 0);
+  options.empty_file = folder_.root() / "dark.png";
+  EXPECT_THAT(refusal(image, options, StatusCode::bad_frame), HasSubstr("dark.png: no pixel is measured"));
+  folder_.write_depth("near.png", 50);
+  options.empty_file = folder_.root() / "near.png";
+  EXPECT_THAT(refusal(image, options, StatusCode::bad_frame), HasSubstr("near.png: what it shows lies 0.01 metres"));
+
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  options.empty_file = folder_.write("behind.ply", header + "0 0 -600\n100 0 -600\n");
+  EXPECT_THAT(refusal(folder_.write("a.ply", header + "0 0 500\n100 0 600\n"), options, StatusCode::bad_frame),
+              HasSubstr("behind.ply: no point of the empty bin"));
+}
+
 }  // namespace
 }  // namespace graspd
