@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "drivers/files/measured_depth.hpp"
 #include "firmware_app/append_text.hpp"
 #include "firmware_app/pick_report.hpp"
 
@@ -89,6 +90,7 @@ Json instance_as_json(const DetectionReport& report, const Instance& instance) {
   return {{"part", part_name(report, instance)},
           {"part_id", report.banks[instance.bank].part->part_id},
           {"score", instance.score},
+          {"camera_from_part", pose_values(instance.camera_from_part)},
           {"rotation", rotation},
           {"translation_mm", {wide(t.x()) * 1e3, wide(t.y()) * 1e3, wide(t.z()) * 1e3}},
           {"view", instance.view},
@@ -117,9 +119,12 @@ std::string flag_names(std::uint32_t flags) {
 std::string report_as_text(const DetectionReport& report) {
   const Detections& detections = *report.detections;
   std::string text;
-  append(text, "frame      %.200s: %d x %d, %u pixels measured, %u of them not background, %u points matched\n",
+  append(text,
+         "frame      %.200s: %d x %d, %u pixels measured, half of them within %.3f m, %u of them not background, "
+         "%u points matched\n",
          std::string(report.frame_name).c_str(), report.frame->camera.width, report.frame->camera.height,
-         detections.measured_pixels, detections.foreground_pixels, detections.scene_points);
+         detections.measured_pixels, wide(median_depth(report.frame->depth)), detections.foreground_pixels,
+         detections.scene_points);
   append(text, "time       %.3f s:", report.seconds);
   for (std::size_t i = 0; i < stage_count; ++i) {
     append(text, "%s %s %.3f", i == 0 ? "" : ",", stage_name(static_cast<Stage>(i)),

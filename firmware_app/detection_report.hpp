@@ -30,7 +30,8 @@ struct DetectionReport {
 /// Tables for a person: instances with poses (millimetres) and evidence, rejections by reason, times.
 [[nodiscard]] std::string report_as_text(const DetectionReport& report);
 
-/// The same as JSON; rotations row-major, camera_from_part, translations in millimetres.
+/// The same as JSON. Each pose, camera_from_part, stands there as pose_values() writes it, as calibration files take
+/// it, and once more as a rotation matrix, row by row, and a translation in millimetres.
 [[nodiscard]] std::string report_as_json(const DetectionReport& report);
 
 /// The instances as draw_detections wants them.

@@ -15,14 +15,6 @@ constexpr double degrees = 180 / std::numbers::pi;
 
 double wide(float value) { return static_cast<double>(value); }
 
-/// x, y, z in millimetres, then the quaternion x, y, z, w.
-std::array<double, 7> pose_values(const RigidTransform& pose) {
-  const Eigen::Quaternionf turn(pose.rotation);
-  const Vector3 place = pose.translation * 1000.0F;
-  return {wide(place.x()), wide(place.y()), wide(place.z()), wide(turn.x()),
-          wide(turn.y()),  wide(turn.z()),  wide(turn.w())};
-}
-
 /// Where the bin was found, from where the configuration has it.
 std::string bin_as_text(const BinFit& fit, const BinParameters& bin) {
   std::array<char, 400> line{};
@@ -48,6 +40,13 @@ std::string bin_as_text(const BinFit& fit, const BinParameters& bin) {
 }
 
 }  // namespace
+
+std::array<double, 7> pose_values(const RigidTransform& pose) {
+  const Eigen::Quaternionf turn(pose.rotation);
+  const Vector3 place = pose.translation * 1000.0F;
+  return {wide(place.x()), wide(place.y()), wide(place.z()), wide(turn.x()),
+          wide(turn.y()),  wide(turn.z()),  wide(turn.w())};
+}
 
 std::string picks_as_text(const PickResult& result, const GraspParameters& parameters) {
   std::string text;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -7,6 +8,9 @@
 #include "core/grasp/pick.hpp"
 
 namespace graspd {
+
+/// A pose as the files of graspd write it: x, y, z in millimetres, then the quaternion x, y, z, w.
+[[nodiscard]] std::array<double, 7> pose_values(const RigidTransform& pose);
 
 /// The best pick, why the others fell and where the bin stands, for a person: poses in millimetres and quaternions x,
 /// y, z, w.

@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "drivers/files/atomic_file.hpp"
 #include "firmware_app/calibration_file.hpp"
 #include "tests/firmware_app/graspd_process.hpp"
+#include "tests/firmware_app/shared_bank.hpp"
 #include "tests/firmware_app/temporary_folder.hpp"
 
 namespace graspd {
@@ -94,6 +97,33 @@ TEST(Calibrate, SaysWhatTheMotionsLeaveOpen) {
   const GraspdOutcome outcome = run_graspd(folder, {"calibrate", folder.write("pairs.toml", text)});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("warning: all turns are about one axis"));
+}
+
+TEST(Calibrate, TakesThePosesThatDetectPrints) {
+  TemporaryFolder folder;
+  ASSERT_TRUE(write_file(folder.path("bar.bank"), shared_angle_bar_bank()).ok());
+  const RenderedScene scene = angle_bar_scene();
+  const std::filesystem::path frame = write_bop_scene(folder.path("data"), scene) / "depth" / "000000.png";
+  const GraspdOutcome outcome =
+      run_graspd(folder, {"detect", frame.string(), "--bank", folder.path("bar.bank"), "--json", "-"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  std::string pairs = "setup = \"eye_to_hand\"\n";
+  const nlohmann::json instances = nlohmann::json::parse(outcome.output)["instances"];
+  ASSERT_EQ(instances.size(), scene.poses.size());
+  for (const nlohmann::json& instance : instances) {
+    const std::string pose = instance["camera_from_part"].dump();
+    pairs += pair("0, 0, 0, 0, 0, 0", pose.substr(1, pose.size() - 2));
+  }
+  pairs += pair("0, 0, 0, 0, 0, 0", "0, 0, 0, 0, 0, 0");
+  const Result<CalibrationFile> read = read_calibration_file(folder.write("pairs.toml", pairs));
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const Eigen::Isometry3d& seen = read.value().pairs[i].camera_from_target;
+    EXPECT_TRUE(std::any_of(scene.poses.begin(), scene.poses.end(), [&](const RigidTransform& truth) {
+      return (seen.translation().cast<float>() - truth.translation).norm() < 0.002F &&
+             rotation_angle(truth.rotation.transpose() * seen.linear().cast<float>()) < 0.03F;
+    })) << seen.matrix();
+  }
 }
 
 TEST(Calibrate, MissingFileIsOneLine) {
