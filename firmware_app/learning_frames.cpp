@@ -1,6 +1,7 @@
 #include "firmware_app/learning_frames.hpp"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include "drivers/files/bop_dataset.hpp"
@@ -26,7 +27,7 @@ Status list_scene(const std::filesystem::path& folder, std::vector<SceneToRead>&
   Result<BopScene> scene = read_bop_scene(folder);
   if (!scene.ok()) return scene.status();
   SceneToRead entry{std::move(scene).value(), false, {}};
-  if (std::filesystem::exists(folder / "scene_gt.json")) {
+  if (std::error_code ignored; std::filesystem::exists(folder / "scene_gt.json", ignored)) {
     Result<std::vector<BopInstance>> truths = read_bop_ground_truth(folder);
     if (!truths.ok()) return truths.status();
     entry.truths = std::move(truths).value();
@@ -40,17 +41,22 @@ Status list_scene(const std::filesystem::path& folder, std::vector<SceneToRead>&
 Status list_path(const std::filesystem::path& path, std::vector<SceneToRead>& scenes,
                  std::vector<FrameToRead>& frames) {
   if (is_bop_scene(path)) return list_scene(path, scenes, frames);
-  if (!std::filesystem::is_directory(path)) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) {
     frames.push_back({0, 0, path});
     return {};
   }
   std::vector<std::filesystem::path> entries;
-  for (const auto& entry : std::filesystem::directory_iterator(path)) entries.push_back(entry.path());
+  for (std::filesystem::directory_iterator entry(path, error); !error && entry != std::filesystem::directory_iterator();
+       entry.increment(error)) {
+    entries.push_back(entry->path());
+  }
+  if (error) return Status::format(StatusCode::bad_file, "cannot read %s: %s", path.c_str(), error.message().c_str());
   std::sort(entries.begin(), entries.end());
   for (const std::filesystem::path& entry : entries) {
     if (is_bop_scene(entry)) {
       if (Status listed = list_scene(entry, scenes, frames); !listed.ok()) return listed;
-    } else if (std::filesystem::is_regular_file(entry) && is_frame_file(entry)) {
+    } else if (std::filesystem::is_regular_file(entry, error) && is_frame_file(entry)) {
       frames.push_back({0, 0, entry});
     }
   }
@@ -67,7 +73,7 @@ Result<LearningFrame> read_learning_frame(const FrameToRead& frame, const std::v
     return result;
   }
   const SceneToRead& scene = scenes[frame.scene - 1];
-  Result<LoadedFrame> file = load_bop_frame(scene.scene, frame.image);
+  Result<LoadedFrame> file = load_bop_frame(scene.scene, frame.image, options.empty_file);
   if (!file.ok()) return file.status();
   result.file = std::move(file).value();
   result.poses_known = scene.poses_known;
@@ -92,8 +98,10 @@ bool may_show(const FrameToRead& frame, const std::vector<SceneToRead>& scenes, 
 Status list_paths(const std::vector<std::string>& paths, std::vector<SceneToRead>& scenes,
                   std::vector<FrameToRead>& frames) {
   for (const std::string& path : paths) {
-    if (!std::filesystem::exists(path)) {
-      return Status::format(StatusCode::bad_file, "%s: no such file or folder", path.c_str());
+    std::error_code error;
+    if (!std::filesystem::exists(path, error)) {
+      return Status::format(StatusCode::bad_file, "%s: %s", path.c_str(),
+                            error ? error.message().c_str() : "no such file or folder");
     }
     const std::size_t before = frames.size();
     if (Status listed = list_path(path, scenes, frames); !listed.ok()) return listed;

@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
 
 #include "drivers/files/resident_file.hpp"
+#include "firmware_app/learning_frames.hpp"
 #include "tests/firmware_app/graspd_process.hpp"
 #include "tests/firmware_app/rendered_scene.hpp"
 #include "tests/firmware_app/temporary_folder.hpp"
@@ -106,6 +109,29 @@ TEST_F(BankLearn, AFullModelOfSoManyPointsIsOneView) {
   const Bank full = read_bank(file.bytes(), bank).value();
   ASSERT_EQ(full.views.size(), 1U);
   EXPECT_NEAR(full.views[0].point_count, 400.0, 120.0);
+}
+
+TEST_F(BankLearn, TakesTheEmptyBinThatIsNamed) {
+  std::ofstream(scene_ / "scene_gt.json") << truth_;
+  const GraspdOutcome dark = learn(part_, "learnt.bank", {"--empty", folder_.path("none.png")});
+  EXPECT_EQ(dark.exit_code, 4);
+  EXPECT_THAT(dark.errors, HasSubstr("none.png"));
+}
+
+TEST_F(BankLearn, AFolderThatCannotBeReadIsNamed) {
+  const std::filesystem::path closed = folder_.path("closed");
+  std::filesystem::create_directories(closed);
+  std::filesystem::permissions(closed, std::filesystem::perms::none);
+  std::filesystem::permissions(folder_.path(""), std::filesystem::perms(0755));
+  const auto refused = [&] {
+    // Nothing is forbidden to root.
+    if (::geteuid() == 0 && ::setuid(65534) != 0) std::_Exit(2);
+    const Status status = check_learning_frames({closed.string()});
+    const bool named = std::string(status.message()).find("closed: Permission denied") != std::string::npos;
+    std::_Exit(status.code() == StatusCode::bad_file && named ? 0 : 1);
+  };
+  EXPECT_EXIT(refused(), testing::ExitedWithCode(0), "");
+  EXPECT_EQ(check_learning_frames({std::string(300, 'x')}).code(), StatusCode::bad_file);
 }
 
 TEST_F(BankLearn, SaysWhatIsMissingAndLeavesNoBank) {
