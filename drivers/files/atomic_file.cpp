@@ -107,10 +107,13 @@ Status check_writable(const fs::path& path) {
   const fs::file_status status = fs::status(path, ignored);
   if (fs::is_directory(status)) return cannot_write(path, EISDIR);
   if (fs::exists(status) && ::access(path.c_str(), W_OK) != 0) return cannot_write(path, errno);
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (fs::exists(status) && !fs::is_regular_file(status)) return {};
+  // A file is not written to but replaced, so its folder must let one be made.
+  const fs::path target = followed(path);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (!fs::exists(folder, ignored)) return cannot_write(path, ENOENT);
   if (!fs::is_directory(folder, ignored)) return cannot_write(path, ENOTDIR);
-  if (!fs::exists(status) && ::access(folder.c_str(), W_OK | X_OK) != 0) return cannot_write(path, errno);
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) return cannot_write(path, errno);
   return {};
 }
 

@@ -10,6 +10,12 @@
 
 namespace graspd {
 
+namespace {
+
+constexpr off_t largest_file = off_t{2} << 30U;
+
+}  // namespace
+
 Result<std::string> read_file(const std::filesystem::path& path, StatusCode code) {
   const auto failure = [&](int error) {
     return Status::format(code, "cannot read %s: %s", path.c_str(), std::generic_category().message(error).c_str());
@@ -19,10 +25,17 @@ Result<std::string> read_file(const std::filesystem::path& path, StatusCode code
   struct stat state = {};
   if (::fstat(file.number(), &state) != 0) return failure(errno);
   if (S_ISDIR(state.st_mode)) return failure(EISDIR);
+  // Devices need not have an end.
+  if (S_ISCHR(state.st_mode) || S_ISBLK(state.st_mode)) {
+    return Status::format(code, "cannot read %s: it is not a file", path.c_str());
+  }
+  const Status too_large = Status::format(code, "cannot read %s: it holds more than 2 GiB", path.c_str());
+  if (state.st_size > largest_file) return too_large;
 
   std::string bytes(static_cast<std::size_t>(state.st_size), '\0');
   std::size_t filled = 0;
   while (true) {
+    if (filled > static_cast<std::size_t>(largest_file)) return too_large;
     // A pipe tells no size, so the string grows as long as something comes.
     if (filled == bytes.size()) bytes.resize(bytes.size() + 4096);
     const ssize_t count = ::read(file.number(), bytes.data() + filled, bytes.size() - filled);

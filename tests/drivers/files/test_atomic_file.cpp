@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+#include <thread>
 
 #include "drivers/files/atomic_file.hpp"
 #include "drivers/files/resident_file.hpp"
@@ -93,12 +96,50 @@ TEST(AtomicFile, WritableIsKnownBeforeTheWork) {
   }
 }
 
+TEST(AtomicFile, WritableAsksForTheFolderInWhichFilesAreReplaced) {
+  const TemporaryFolder folder;
+  fs::create_symlink(folder.path() / "no" / "out", folder.path() / "link");
+  EXPECT_EQ(check_writable(folder.path() / "link").code(), StatusCode::cannot_write);
+  EXPECT_TRUE(check_writable("/dev/null").ok());
+
+  const fs::path file = folder.write("kept/out", "old");
+  fs::permissions(folder.path(), fs::perms(0755));
+  fs::permissions(file.parent_path(), fs::perms(0555));
+  fs::permissions(file, fs::perms(0666));
+  const auto refused = [&] {
+    // Nothing is forbidden to root.
+    if (::geteuid() == 0 && ::setuid(65534) != 0) std::_Exit(2);
+    std::_Exit(check_writable(file).code() == StatusCode::cannot_write ? 0 : 1);
+  };
+  EXPECT_EXIT(refused(), testing::ExitedWithCode(0), "");
+  fs::permissions(file.parent_path(), fs::perms::owner_all);
+}
+
 TEST(WholeFile, MissingFileAndFolderAreRefused) {
   const TemporaryFolder folder;
   const Result<std::string> missing = read_file(folder.path() / "none.toml", StatusCode::bad_configuration);
   EXPECT_EQ(missing.status().code(), StatusCode::bad_configuration);
   EXPECT_THAT(std::string(missing.status().message()), HasSubstr("none.toml: No such file"));
   EXPECT_EQ(read_file(folder.path()).status().code(), StatusCode::bad_file);
+}
+
+TEST(WholeFile, WhatHasNoEndIsRefused) {
+  EXPECT_THAT(std::string(read_file("/dev/zero").status().message()), HasSubstr("/dev/zero: it is not a file"));
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("huge", "");
+  // A file with a hole takes no room on the disk.
+  fs::resize_file(file, (std::uintmax_t{2} << 30U) + 1);
+  EXPECT_THAT(std::string(read_file(file).status().message()), HasSubstr("huge: it holds more than 2 GiB"));
+}
+
+TEST(WholeFile, APipeIsReadToItsEnd) {
+  const TemporaryFolder folder;
+  const std::string pipe = (folder.path() / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string sent(10'000, 'x');
+  std::thread writer([&] { std::ofstream(pipe) << sent; });
+  EXPECT_EQ(read_file(pipe).value(), sent);
+  writer.join();
 }
 
 TEST(ResidentFile, HoldsTheBytesUntilItGoes) {
