@@ -106,6 +106,8 @@ void add_bank_compile_command(CLI::App& bank_command, Status& outcome) {
   part->excludes(bop);
   command->add_option("-o,--output", options->output, "The bank; with --bop the folder for the banks")->required();
   add_bank_switches(*command, options->switches);
+  // One picture cannot show the views of many parts.
+  bop->excludes(command->get_option("--picture"));
   command->footer(
       "Only CAD is read, no frames. Symmetries come from the part file (with --bop from\n"
       "models_info.json); when a part file has no [symmetry], they are looked for and reported.\n"

@@ -247,6 +247,8 @@ void add_bank_learn_command(CLI::App& bank_command, Status& outcome) {
       ->check(CLI::Range(0.0, 1.0));
   command->add_flag("--frames-only", options->frames_only, "Keep no rendered views for the sides that no frame shows");
   add_bank_switches(*command, options->switches);
+  // One picture cannot show the views of many parts.
+  bop->excludes(command->get_option("--picture"));
   add_frame_file_switches(*command, options->files);
   command->footer(
       "Cuts the points that coincide with the posed part out of each frame. Poses come from the scene's\n"

@@ -2,14 +2,15 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "drivers/camera/recorded_source.hpp"
 #include "drivers/camera/simulated_camera.hpp"
 #include "drivers/files/bop_dataset.hpp"
-#include "drivers/files/load_frame.hpp"
 #include "drivers/system/signals.hpp"
 #include "firmware_app/commands.hpp"
 #include "firmware_app/simulated_piles.hpp"
@@ -36,18 +37,16 @@ struct SimulateOptions {
 Result<std::vector<LoadedFrame>> load_frames(const std::vector<std::string>& paths, double& step) {
   std::vector<LoadedFrame> frames;
   for (const std::string& path : paths) {
-    if (!is_bop_scene(path)) {
-      Result<LoadedFrame> frame = load_frame(path, {});
-      if (!frame.ok()) return frame.status();
-      frames.push_back(std::move(frame).value());
-      continue;
-    }
+    RecordedSourceOptions recorded;
+    recorded.path = path;
+    recorded.maximum_bytes = std::size_t{2} << 30U;
+    Result<std::vector<LoadedFrame>> loaded = load_recorded_frames(recorded);
+    if (!loaded.ok()) return loaded.status();
+    std::move(loaded.value().begin(), loaded.value().end(), std::back_inserter(frames));
+    if (!is_bop_scene(path)) continue;
     const Result<BopScene> scene = read_bop_scene(path);
     if (!scene.ok()) return scene.status();
     for (const BopImage& image : scene.value().images) {
-      Result<LoadedFrame> frame = load_bop_frame(scene.value(), image.im_id);
-      if (!frame.ok()) return frame.status();
-      frames.push_back(std::move(frame).value());
       // The steps of the recording, so that 16 bits hold what it held.
       if (image.depth_scale > 0 && image.depth_scale <= 1) step = static_cast<double>(image.depth_scale);
     }
@@ -124,7 +123,9 @@ void add_simulate_command(CLI::App& command_line, Status& outcome) {
   auto options = std::make_shared<SimulateOptions>();
   CLI::App* command = command_line.add_subcommand("simulate", "Be a 3D camera on the network that plays frames");
   add_pile_options(*command, *options);
-  command->add_option("FRAMES", options->frames, "Scene folders in BOP's form, or frames of one camera")
+  command
+      ->add_option("FRAMES", options->frames,
+                   "Scene folders in BOP's form, or folders of frames, or frames, of one camera")
       ->excludes("--parts");
   std::vector<std::string> names;
   for (const PixelFormat format : formats) names.emplace_back(pixel_format_name(format));
@@ -136,7 +137,8 @@ void add_simulate_command(CLI::App& command_line, Status& outcome) {
       ->capture_default_str()
       ->check(CLI::Range(0.001, 100.0));
   command->add_option("--address", options->camera.address, "IPv4 address of this machine to listen at")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::ValidIPV4);
   command->add_option("--serial", options->camera.serial, "Serial number")->capture_default_str();
   command->add_option("--exposure", options->exposure, "Seconds from the trigger to the first packet")
       ->capture_default_str()

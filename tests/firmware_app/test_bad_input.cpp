@@ -83,7 +83,7 @@ TEST_F(BadInput, Cameras) {
   expect_refusal({"simulate", folder_.path("none")}, 4, {"none", "No such file"});
   expect_refusal({"simulate", bank_}, 4, {"bar.bank", "not a kind of frame"});
   expect_refusal({"simulate", scene_.string(), "--format", "RGB8"}, 2, {"--format", "Coord3D_C32f"});
-  expect_refusal({"simulate", scene_.string(), "--address", "here"}, 9, {"here", "IPv4"});
+  expect_refusal({"simulate", scene_.string(), "--address", "here"}, 2, {"here", "--address"});
   // An address for documentation, which no machine has.
   expect_refusal({"simulate", scene_.string(), "--address", "192.0.2.7"}, 8, {"192.0.2.7", "cannot listen"});
 }
@@ -247,6 +247,14 @@ TEST_F(BadInput, DataSet) {
                  4, {"test_targets_bop19.json"});
   expect_refusal({"bank", "compile", "--bop", folder_.path("data"), "-o", folder_.path("banks")}, 4,
                  {"models_info.json"});
+}
+
+TEST_F(BadInput, OnePictureForManyBanks) {
+  expect_refusal({"bank", "compile", "--bop", folder_.path("data"), "-o", folder_.path("banks"), "--picture", "a.png"},
+                 2, {"--bop", "--picture"});
+  expect_refusal({"bank", "learn", "--bop", folder_.path("data"), "--frames", scene_.string(), "-o",
+                  folder_.path("banks"), "--picture", "a.png"},
+                 2, {"--bop", "--picture"});
 }
 
 TEST_F(BadInput, OutputThatDoesNotReachItsReaderIsAFailure) {

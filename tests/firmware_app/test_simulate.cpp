@@ -98,6 +98,18 @@ TEST_F(SimulatedPiles, LieWhereTheirTruePosesSay) {
   }
 }
 
+TEST_F(SimulatedPiles, AFolderOfFramesIsPlayedToo) {
+  const std::string folder = folder_.path("frames");
+  std::filesystem::create_directories(folder);
+  for (const char* name : {"a.png", "b.png"}) {
+    std::filesystem::copy_file(scene_ / "depth" / "000000.png", std::filesystem::path(folder) / name);
+  }
+  static_cast<void>(folder_.write("frames/camera.json", R"({"fx": 400, "fy": 400, "cx": 159.5, "cy": 119.5,
+                                                            "depth_scale": 0.1})"));
+  camera_.emplace(camera_folder_, std::vector<std::string>{"simulate", folder});
+  EXPECT_EQ(camera_->wait_for("plays ", patience), "2") << camera_->errors();
+}
+
 TEST_F(SimulatedPiles, FollowFromTheirSeed) {
   const auto depths = [this](const char* seed, const std::string& saved) {
     look_at_piles({"--parts", folder_.path("bar.stl"), "--scenes", "1", "--instances", "2", "--seed", seed, "--save",
