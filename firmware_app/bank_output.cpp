@@ -19,6 +19,9 @@ void print_report(const std::string& path, std::size_t bytes, const BankPart& pa
       path.c_str(), static_cast<double>(bytes) / (1024.0 * 1024.0), report.views_rendered, report.views_cut_out,
       report.views_kept, report.views_fused, report.views_merged - report.views_fused, report.views_incomplete,
       report.views_degenerate);
+  const Vector3 size = 1000.0F * (part.box_max - part.box_min);
+  std::printf("  size %.1f x %.1f x %.1f mm\n", static_cast<double>(size.x()), static_cast<double>(size.y()),
+              static_cast<double>(size.z()));
   if (!report.resting.empty()) {
     const RestingPose& first = report.resting.front();
     std::printf("  %zu resting poses; in the most frequent (%.0f%%) this points down: (%.2f, %.2f, %.2f)\n",

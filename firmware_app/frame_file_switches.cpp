@@ -21,7 +21,7 @@ void add_frame_file_switches(CLI::App& command, FrameFileSwitches& switches) {
   command.add_option("--empty", switches.empty, "The bin without parts, same kind of file (else the scene's own)");
   command.add_option("--units", switches.units, "Units of clouds")
       ->capture_default_str()
-      ->check(CLI::IsMember({"m", "mm"}));
+      ->check(CLI::IsMember({"m", "mm", "in"}));
   command
       .add_option("--axes", switches.axes, "Axes of clouds: y down and z away (opencv), or y up and z near (opengl)")
       ->capture_default_str()

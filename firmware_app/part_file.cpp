@@ -13,8 +13,6 @@ namespace {
 constexpr double metres_per_millimetre = 0.001;
 /// Rounded CAD figures may be a little off; more than this is a slip that would turn the gripper.
 constexpr float maximum_skew = 0.0175F;  // sin of 1 degree
-/// The full symmetry group of a cube has 24 members, of a gear as many as teeth (doubled with a flip).
-constexpr std::size_t maximum_symmetries = 720;
 constexpr std::size_t maximum_grasps = 4096;
 
 bool read_direction(SettingsTable& table, std::string_view key, Vector3& direction) {
@@ -32,7 +30,7 @@ bool same_pose(const RigidTransform& a, const RigidTransform& b) {
   return (a.rotation - b.rotation).norm() < 1e-3F && (a.translation - b.translation).norm() < 1e-5F;
 }
 
-/// All products of `generators`, without the identity. False when there are too many to be a symmetry group.
+/// All products of `generators`, without the identity. False when there are more than a bank holds.
 bool close_group(const std::vector<RigidTransform>& generators, std::vector<RigidTransform>& group) {
   std::vector<RigidTransform> members{RigidTransform{}};
   for (std::size_t next = 0; next < members.size(); ++next) {
@@ -42,7 +40,7 @@ bool close_group(const std::vector<RigidTransform>& generators, std::vector<Rigi
       bool known = false;
       for (const RigidTransform& member : members) known = known || same_pose(member, product);
       if (known) continue;
-      if (members.size() == maximum_symmetries) return false;
+      if (members.size() == most_symmetries) return false;
       members.push_back(product);
     }
   }
@@ -69,12 +67,13 @@ void read_symmetry(SettingsTable table, PartDescription& part) {
     discrete.require("fold", "give how many turns make a circle: 2 for a half turn");
     read_direction(discrete, "axis", axis.direction);
     discrete.read("offset", axis.point, metres_per_millimetre);
-    discrete.read("fold", fold, 2, 360);
+    discrete.read("fold", fold, 2, static_cast<int>(most_symmetries));
     discrete.finish();
     generators.push_back(turn_about(axis, 2 * std::numbers::pi_v<float> / static_cast<float>(fold)));
   }
   if (!close_group(generators, part.symmetry_discrete)) {
-    table.complain("discrete", "does not make a finite group: the axes must meet in one point at right angles");
+    table.complain("discrete", "makes more than " + std::to_string(most_symmetries) +
+                                   " poses that look alike: the axes must meet in one point at right angles");
   }
   table.finish();
 }
@@ -185,7 +184,7 @@ void read_build(SettingsTable table, PartFile& file) {
   table.read("sampling", build.sampling, 0.01, 0.2);
   table.read("detail", build.detail, 0.1, 1);
   table.read("angle_bins", build.angle_bins, 6, 36);
-  table.read("candidate_views", build.candidate_views, 12, 2562);
+  table.read("candidate_views", build.candidate_views, 12, most_candidate_views);
   table.read("maximum_views", build.maximum_views, 1, 200);
   table.read("maximum_view_points", build.maximum_view_points, 50, 10000);
   table.read("maximum_overlap", build.maximum_overlap, 0.1, 1);
@@ -218,7 +217,8 @@ Result<PartFile> read_part_file(const std::string& path) {
   root.read("id", part.part_id, 1U, 65535U);
   root.read_path("mesh", result.mesh_path);
   constexpr std::array units{NamedValue<LengthUnit>{"mm", LengthUnit::millimetres},
-                             NamedValue<LengthUnit>{"m", LengthUnit::metres}};
+                             NamedValue<LengthUnit>{"m", LengthUnit::metres},
+                             NamedValue<LengthUnit>{"in", LengthUnit::inches}};
   root.read_choice<LengthUnit>("units", result.mesh_unit, units);
   read_symmetry(root.table("symmetry"), part);
   read_grasps(root, part);

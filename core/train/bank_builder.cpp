@@ -60,7 +60,8 @@ const char* parameter_fault(const BankBuildParameters& p) {
     return "sampling must lie between 0.01 and 0.2 of the diameter";
   if (!within(p.detail, 0.1F, 1.0F)) return "detail must lie between 0.1 and 1 of the sampling";
   if (p.angle_bins < 4 || p.angle_bins > 60) return "angle_bins must lie between 4 and 60";
-  if (p.candidate_views < 6 || p.candidate_views > 2000) return "candidate_views must lie between 6 and 2000";
+  if (p.candidate_views < 6 || p.candidate_views > most_candidate_views)
+    return "candidate_views must lie between 6 and 2562";
   if (p.maximum_views < 1 || p.maximum_view_points < 10) return "at least one view of 10 points is needed";
   if (!within(p.maximum_overlap, 0.0F, 1.0F)) return "maximum_overlap must lie between 0 and 1";
   if (!within(p.minimum_completeness, 0.0F, 1.0F)) return "minimum_completeness must lie between 0 and 1";

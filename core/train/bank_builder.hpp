@@ -37,6 +37,9 @@ enum class Generalisation : std::uint8_t {
   smooth,  ///< Its own points and normals, averaged with their neighbours'.
 };
 
+/// Directions from which a part may be rendered at most.
+inline constexpr int most_candidate_views = 2562;
+
 /// How a bank is made.
 struct BankBuildParameters {
   float sampling = 0.05F;     ///< Voxel edge of the view points, as a share of the diameter.

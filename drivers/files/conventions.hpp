@@ -9,7 +9,7 @@
 namespace graspd {
 
 /// The unit of the lengths in a file.
-enum class LengthUnit : std::uint8_t { millimetres, metres };
+enum class LengthUnit : std::uint8_t { millimetres, metres, inches };
 
 /// The axes of the camera frame in a file.
 enum class CameraAxes : std::uint8_t {
@@ -17,12 +17,14 @@ enum class CameraAxes : std::uint8_t {
   opengl,  ///< x right, y up, z towards the camera.
 };
 
-/// "m" or "mm". Fails with bad_configuration.
+/// "m", "mm" or "in". Fails with bad_configuration.
 [[nodiscard]] Result<LengthUnit> parse_length_unit(std::string_view text);
 /// "opencv" or "opengl". Fails with bad_configuration.
 [[nodiscard]] Result<CameraAxes> parse_camera_axes(std::string_view text);
 
-[[nodiscard]] inline float metres_per(LengthUnit unit) { return unit == LengthUnit::metres ? 1.0F : 1e-3F; }
+[[nodiscard]] float metres_per(LengthUnit unit);
+/// The unit as a word: "millimetres".
+[[nodiscard]] const char* unit_name(LengthUnit unit);
 
 /// A point of a file in graspd's camera axes; its own inverse.
 [[nodiscard]] inline Vector3 from_axes(CameraAxes axes, const Vector3& p) {

@@ -44,7 +44,7 @@ Status check_extent(const Mesh& mesh, LengthUnit unit, const std::filesystem::pa
   const float extent = (high - low).norm();
   if (extent >= smallest && extent <= largest) return {};
   return Status::format(StatusCode::bad_file, "%s: %g mm across when it is read in %s: is that its unit?", path.c_str(),
-                        static_cast<double>(extent) * 1e3, unit == LengthUnit::metres ? "metres" : "millimetres");
+                        static_cast<double>(extent) * 1e3, unit_name(unit));
 }
 
 }  // namespace

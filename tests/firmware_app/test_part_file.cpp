@@ -8,6 +8,7 @@ namespace graspd {
 namespace {
 
 using testing::EndsWith;
+using testing::HasSubstr;
 using testing::StartsWith;
 
 constexpr std::string_view smallest = "name = \"nut\"\nid = 7\nmesh = \"nut.stl\"\n";
@@ -34,6 +35,7 @@ TEST_F(PartFileText, SmallestOneLeavesSymmetriesToTheBuilder) {
   EXPECT_EQ(result.value().part.part_id, 7U);
   EXPECT_EQ(result.value().mesh_path, folder_.path("nut.stl"));
   EXPECT_EQ(result.value().mesh_unit, LengthUnit::millimetres);
+  EXPECT_EQ(read("units = \"in\"\n").value().mesh_unit, LengthUnit::inches);
   EXPECT_FALSE(result.value().part.symmetry_given);
 }
 
@@ -78,8 +80,26 @@ TEST_F(PartFileText, OffsetOfAnAxisTurnsAboutThatPoint) {
 TEST_F(PartFileText, AxesThatMakeNoGroupAreRefused) {
   EXPECT_EQ(complaint("[[symmetry.discrete]]\naxis = [0, 0, 1]\nfold = 5\n[[symmetry.discrete]]\naxis = [1, 0, 3]\n"
                       "fold = 7\n"),
-            "part.toml:4: symmetry.discrete does not make a finite group: the axes must meet in one point at right "
-            "angles");
+            "part.toml:4: symmetry.discrete makes more than 256 poses that look alike: the axes must meet in one point "
+            "at right angles");
+}
+
+TEST_F(PartFileText, NothingIsTakenThatTheBankDoesNotHold) {
+  const auto turns = [](const std::string& fold) {
+    return "[[symmetry.discrete]]\naxis = [0, 0, 1]\nfold = " + fold + "\n";
+  };
+  EXPECT_EQ(read(turns("256")).value().part.symmetry_discrete.size(), 255U);
+  EXPECT_THAT(complaint(turns("257")), StartsWith("part.toml:6: symmetry.discrete.fold must"));
+  EXPECT_THAT(complaint(turns("200") + "[[symmetry.discrete]]\naxis = [1, 0, 0]\nfold = 2\n"),
+              HasSubstr("makes more than 256 poses"));
+
+  PartFile most = read("[build]\ncandidate_views = " + std::to_string(most_candidate_views) + "\n").value();
+  most.part.mesh.vertices = {Vector3::Zero()};
+  BankReport report;
+  const auto refused = build_bank(most.part, most.build, report, [](float) {});
+  EXPECT_THAT(std::string(refused.status().message()), HasSubstr("no faces")) << "the parameters are not what is wrong";
+  EXPECT_THAT(complaint("[build]\ncandidate_views = " + std::to_string(most_candidate_views + 1) + "\n"),
+              HasSubstr("candidate_views"));
 }
 
 TEST_F(PartFileText, GraspMakesARightHandedToolFrame) {

@@ -175,6 +175,7 @@ TEST_F(CloudFile, CloudWithoutPointsIsRefused) {
 TEST(Conventions, WordsOfTheCommandLine) {
   EXPECT_EQ(parse_length_unit("m").value(), LengthUnit::metres);
   EXPECT_EQ(parse_length_unit("mm").value(), LengthUnit::millimetres);
+  EXPECT_EQ(parse_length_unit("in").value(), LengthUnit::inches);
   EXPECT_EQ(parse_length_unit("inch").status().code(), StatusCode::bad_configuration);
   EXPECT_EQ(parse_camera_axes("opengl").value(), CameraAxes::opengl);
   EXPECT_THAT(std::string(parse_camera_axes("up").status().message()), HasSubstr("'up': use opencv"));

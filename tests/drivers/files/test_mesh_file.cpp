@@ -107,6 +107,10 @@ TEST_F(MeshFile, WrongUnitIsTold) {
   EXPECT_TRUE(read("a.obj", triangle, LengthUnit::metres).ok());
   EXPECT_THAT(refusal("a.obj", triangle), HasSubstr("a.obj: 0.05 mm across when it is read in millimetres"));
   const Result<Mesh> large = read("b.obj", "v 0 0 0\nv 30 0 0\nv 0 40 0\nf 1 2 3\n", LengthUnit::metres);
+  const Result<Mesh> inches = read("a.obj", triangle, LengthUnit::inches);
+  ASSERT_TRUE(inches.ok()) << inches.status().message();
+  EXPECT_NEAR(area_of(inches.value()), 0.0254F * 0.0254F * area_of(read("a.obj", triangle, LengthUnit::metres).value()),
+              1e-9F);
   EXPECT_THAT(std::string(large.status().message()), HasSubstr("b.obj: 50000 mm across when it is read in metres"));
 }
 
