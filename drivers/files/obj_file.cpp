@@ -36,6 +36,19 @@ const char* read_face(std::string_view line, std::size_t vertex_count, std::vect
   return polygon.size() < 3 ? "a face with fewer than three vertices: the file is cut short or damaged" : nullptr;
 }
 
+/// What stands on `line` and, as long as a backslash ends it, on the lines behind it; kept in `joined`.
+std::string_view with_continuations(std::string_view line, LineScanner& lines, std::string& joined) {
+  if (!line.ends_with('\\')) return line;
+  joined.clear();
+  bool more = true;
+  while (more && line.ends_with('\\')) {
+    joined.append(line.substr(0, line.size() - 1)).push_back(' ');
+    more = lines.next(line);
+  }
+  if (more) joined.append(line);
+  return joined;
+}
+
 }  // namespace
 
 Result<Mesh> parse_obj(std::string_view bytes, std::string_view name) {
@@ -43,18 +56,20 @@ Result<Mesh> parse_obj(std::string_view bytes, std::string_view name) {
   std::vector<std::uint32_t> polygon;
   LineScanner lines(bytes);
   std::string_view line;
+  std::string joined;
   while (lines.next(line)) {
+    const int line_number = lines.line_number();
     const std::string_view word = take_word(line);
     const char* wrong = nullptr;
     if (word == "v") {
-      wrong = read_vertex(line, mesh.vertices);
+      wrong = read_vertex(with_continuations(line, lines, joined), mesh.vertices);
     } else if (word == "f") {
-      wrong = read_face(line, mesh.vertices.size(), polygon);
+      wrong = read_face(with_continuations(line, lines, joined), mesh.vertices.size(), polygon);
       if (wrong == nullptr) append_polygon(polygon, mesh.vertices, mesh.triangles);
     }
     if (wrong != nullptr) {
       return Status::format(StatusCode::bad_file, "%.*s:%d: %s", static_cast<int>(name.size()), name.data(),
-                            lines.line_number(), wrong);
+                            line_number, wrong);
     }
   }
   return mesh;

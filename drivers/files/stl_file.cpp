@@ -69,13 +69,13 @@ float little_endian_float(const char* bytes) {
   return std::bit_cast<float>(word);
 }
 
-/// Ascii files start with 'solid', but so do the headers of some binary ones.
+/// Ascii files start with 'solid', but so do the headers of some binary ones. Some programs write capitals.
 bool is_ascii(std::string_view bytes) {
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-  if (start == std::string_view::npos || !bytes.substr(start).starts_with("solid")) return false;
+  if (start == std::string_view::npos || lower_case(bytes.substr(start, 5)) != "solid") return false;
   if (bytes.size() >= header_size && bytes.size() == header_size + facet_size * facet_count(bytes)) return false;
-  const std::string_view beginning = bytes.substr(0, 1000);
-  return beginning.find("facet") != std::string_view::npos || beginning.find("endsolid") != std::string_view::npos;
+  const std::string beginning = lower_case(bytes.substr(0, 1000));
+  return beginning.find("facet") != std::string::npos || beginning.find("endsolid") != std::string::npos;
 }
 
 Result<Mesh> parse_binary(std::string_view bytes, std::string_view name) {
@@ -112,7 +112,8 @@ Result<Mesh> parse_ascii(std::string_view bytes, std::string_view name) {
   bool closed = false;
   while (lines.next(line)) {
     const std::string place = std::to_string(lines.line_number());
-    const std::string_view word = take_word(line);
+    // No keyword is longer than this.
+    const std::string word = lower_case(take_word(line).substr(0, 40));
     if (word == "vertex") {
       std::array<double, 3> xyz{};
       for (double& value : xyz) {
@@ -129,7 +130,7 @@ Result<Mesh> parse_ascii(std::string_view bytes, std::string_view name) {
     } else if (word == "solid" || word == "endsolid") {
       closed = word == "endsolid";
     } else if (!word.empty() && word != "facet" && word != "outer" && word != "endfacet") {
-      return failure(name, place, "not a line of an STL: '" + std::string(word.substr(0, 40)) + "'");
+      return failure(name, place, "not a line of an STL: '" + word + "'");
     }
   }
   if (!closed) {

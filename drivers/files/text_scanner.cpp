@@ -44,6 +44,12 @@ std::string_view take_word(std::string_view& line) {
   return word;
 }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
 bool parse_number(std::string_view word, double& value) { return parse_whole(word, value); }
 bool parse_number(std::string_view word, long long& value) { return parse_whole(word, value); }
 

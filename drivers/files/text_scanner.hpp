@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace graspd {
@@ -25,6 +26,9 @@ class LineScanner {
 
 /// Cuts the first word (between blanks) off `line`; empty when there is none.
 [[nodiscard]] std::string_view take_word(std::string_view& line);
+
+/// The text without capitals.
+[[nodiscard]] std::string lower_case(std::string_view text);
 
 /// Reads a whole word as a number, also nan and inf; false when it is none.
 [[nodiscard]] bool parse_number(std::string_view word, double& value);

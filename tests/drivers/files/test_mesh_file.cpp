@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -105,12 +107,12 @@ TEST_F(MeshFile, BadPlyIsRefusedWithItsLine) {
 TEST_F(MeshFile, WrongUnitIsTold) {
   const std::string_view triangle = "v 0 0 0\nv 0.03 0 0\nv 0 0.04 0\nf 1 2 3\n";
   EXPECT_TRUE(read("a.obj", triangle, LengthUnit::metres).ok());
-  EXPECT_THAT(refusal("a.obj", triangle), HasSubstr("a.obj: 0.05 mm across when it is read in millimetres"));
-  const Result<Mesh> large = read("b.obj", "v 0 0 0\nv 30 0 0\nv 0 40 0\nf 1 2 3\n", LengthUnit::metres);
   const Result<Mesh> inches = read("a.obj", triangle, LengthUnit::inches);
   ASSERT_TRUE(inches.ok()) << inches.status().message();
   EXPECT_NEAR(area_of(inches.value()), 0.0254F * 0.0254F * area_of(read("a.obj", triangle, LengthUnit::metres).value()),
               1e-9F);
+  EXPECT_THAT(refusal("a.obj", triangle), HasSubstr("a.obj: 0.05 mm across when it is read in millimetres"));
+  const Result<Mesh> large = read("b.obj", "v 0 0 0\nv 30 0 0\nv 0 40 0\nf 1 2 3\n", LengthUnit::metres);
   EXPECT_THAT(std::string(large.status().message()), HasSubstr("b.obj: 50000 mm across when it is read in metres"));
 }
 
@@ -151,6 +153,15 @@ TEST_F(MeshFile, AsciiStl) {
   EXPECT_NEAR(area_of(mesh.value()), 0.5F, 1e-6F);
 }
 
+TEST_F(MeshFile, AsciiStlInCapitals) {
+  std::string capitals = ascii_stl;
+  std::transform(capitals.begin(), capitals.end(), capitals.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  const Result<Mesh> mesh = read("a.stl", capitals);
+  ASSERT_TRUE(mesh.ok()) << mesh.status().message();
+  EXPECT_NEAR(area_of(mesh.value()), 0.5F, 1e-6F);
+}
+
 TEST_F(MeshFile, BadAsciiStlIsRefusedWithItsLine) {
   const std::string good = ascii_stl;
   const auto changed = [&](const std::string& from, const std::string& to) {
@@ -163,6 +174,15 @@ TEST_F(MeshFile, BadAsciiStlIsRefusedWithItsLine) {
   EXPECT_THAT(refusal("a.stl", changed("endsolid part\r\n", "")), HasSubstr("a.stl:8: the file ends without endsolid"));
   EXPECT_THAT(refusal("a.stl", changed("endloop", "rubbish")), HasSubstr("a.stl:7: not a line of an STL"));
   EXPECT_THAT(refusal("a.stl", "solid nothing\nendsolid nothing\n"), HasSubstr("no faces"));
+}
+
+TEST_F(MeshFile, ObjLinesGoOnBehindABackslash) {
+  const Result<Mesh> mesh = read("a.obj",
+                                 "# C:\\parts\\\nv 0 0 0\nv 1000 \\\r\n 0 0\r\nv 1000 1000 0\nv 0 1000 0\n"
+                                 "f 1/1/1\\\n2/1/1 3/1/1\\\n4//1\nf 1 2 3\\");
+  ASSERT_TRUE(mesh.ok()) << mesh.status().message();
+  EXPECT_NEAR(area_of(mesh.value()), 1.5F, 1e-5F);
+  EXPECT_THAT(refusal("b.obj", "v 0 0 0\nv 1 0 0\nf 1 \\\n2 \\\n3\n"), HasSubstr("b.obj:3: a face names a vertex"));
 }
 
 TEST_F(MeshFile, ObjWithAllKindsOfCorners) {
