@@ -60,10 +60,12 @@ void append_recalls(std::string& text, const Explanation& explanation, PartNames
     std::array<Share, visibility_class_count + 1> shares;
     for (const TargetFate& target : explanation.targets) {
       if (!chooses(target)) continue;
-      for (const std::size_t column : {visibility_class(target.visibility), visibility_class_count}) {
+      const auto count_in = [&](std::size_t column) {
         ++shares[column].total;
         shares[column].hits += target.fate == Fate::found ? 1U : 0U;
-      }
+      };
+      count_in(visibility_class_count);
+      if (is_known_visibility(target.visibility)) count_in(visibility_class(target.visibility));
     }
     if (shares.back().total == 0) continue;
     append(text, "%-24.40s", label.c_str());
@@ -199,8 +201,10 @@ void append_missed(std::string& text, const Explanation& explanation) {
   text += "\nTargets missed (d: diameter)\n";
   for (const MissedTarget& missed : explanation.missed) {
     const TargetFate& fate = missed.fate;
-    append(text, "scene %u image %u part %u true pose %zu%s%s visible %.2f: ", fate.scene, fate.image, fate.part,
-           fate.truth, fate.level.empty() ? "" : " ", fate.level.c_str(), wide(fate.visibility));
+    append(text, "scene %u image %u part %u true pose %zu%s%s", fate.scene, fate.image, fate.part, fate.truth,
+           fate.level.empty() ? "" : " ", fate.level.c_str());
+    if (is_known_visibility(fate.visibility)) append(text, " visible %.2f", wide(fate.visibility));
+    text += ": ";
     if (fate.fate == Fate::rejected) {
       append_reason(text, missed);
     } else {

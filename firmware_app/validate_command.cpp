@@ -25,13 +25,21 @@ void print_heading() {
               ">0.5", "right / reported", "targets");
 }
 
+/// A share, or - where there is nothing to have a share of.
+std::string share_text(const Share& share) {
+  if (share.total == 0) return "-";
+  char text[16];
+  std::snprintf(text, sizeof text, "%.2f", share.value());
+  return text;
+}
+
 void print_row(const std::string& label, const EvaluationRow& row) {
   const AverageRecall& recall = row.recall;
-  std::printf("%-24s %6.3f %6.3f %6.3f %6.3f   %6.2f %8.2f %6.2f   %5.2f %5zu/%-5zu %7zu\n", label.c_str(),
-              recall.mean(), recall.visible_surface, recall.surface, recall.projection,
-              row.found_by_visibility[0].value(), row.found_by_visibility[1].value(),
-              row.found_by_visibility[2].value(), row.precision.value(), row.precision.hits, row.precision.total,
-              row.targets);
+  const auto& seen = row.found_by_visibility;
+  std::printf("%-24s %6.3f %6.3f %6.3f %6.3f   %6s %8s %6s   %5s %5zu/%-5zu %7zu\n", label.c_str(), recall.mean(),
+              recall.visible_surface, recall.surface, recall.projection, share_text(seen[0]).c_str(),
+              share_text(seen[1]).c_str(), share_text(seen[2]).c_str(), share_text(row.precision).c_str(),
+              row.precision.hits, row.precision.total, row.targets);
 }
 
 void print_reliability(const Reliability& found) {
@@ -60,8 +68,12 @@ void print_summary(const Validation& validation) {
     print_row(label, part.row);
   }
   for (const LabelledRow& level : summary.by_level) print_row("level " + level.label, level.row);
-  std::printf("\nbest scored instance right in %zu of %zu images with a part more than half visible\n",
-              summary.first_right.hits, summary.first_right.total);
+  if (summary.all.visibility_known()) {
+    std::printf("\nbest scored instance right in %zu of %zu images with a part more than half visible\n",
+                summary.first_right.hits, summary.first_right.total);
+  } else {
+    std::printf("\nvisibility not known (no scene_gt_info.json)\n");
+  }
   print_reliability(reliability(validation.errors));
   std::printf("seconds a frame: median %.3f, mean %.3f (", summary.median_seconds, summary.mean_seconds);
   for (std::size_t i = 0; i < stage_count; ++i) {

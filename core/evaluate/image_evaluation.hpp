@@ -39,7 +39,8 @@ struct PoseEstimate {
 struct TruePose {
   std::uint32_t part = 0;
   RigidTransform camera_from_part;
-  float visibility = 0;  ///< Share of the part that can be seen: `visib_fract` of BOP's scene_gt_info.json.
+  float visibility = 0;  ///< Share of the part that can be seen: `visib_fract` of BOP's scene_gt_info.json; negative
+                         ///< when it is not known.
 };
 
 /// How many instances of a part are to be found in an image (`inst_count` of BOP's targets).

@@ -56,10 +56,11 @@ struct RowCounts {
       if (!errors.targeted[truth]) continue;
       ++row.targets;
       const std::size_t hit = claimed.estimate_of_truth[truth] != unmatched ? 1 : 0;
+      row.found.hits += hit;
+      if (!is_known_visibility(errors.visibilities[truth])) continue;
       Share& share = row.found_by_visibility[visibility_class(errors.visibilities[truth])];
       ++share.total;
       share.hits += hit;
-      row.found.hits += hit;
     }
     row.found.total = row.targets;
     for (const std::size_t truth : claimed.truth_of_estimate) {
@@ -109,6 +110,11 @@ void time_statistics(std::span<const ImageErrors> images, EvaluationSummary& sum
 }  // namespace
 
 std::size_t visibility_class(float visibility) { return visibility < 0.3F ? 0U : visibility <= 0.5F ? 1U : 2U; }
+
+bool EvaluationRow::visibility_known() const {
+  return targets == 0 || std::any_of(found_by_visibility.begin(), found_by_visibility.end(),
+                                     [](const Share& share) { return share.total > 0; });
+}
 
 Claims claims(const PartErrors& errors) {
   const std::vector<bool> any_visibility(errors.visibilities.size(), true);

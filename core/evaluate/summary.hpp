@@ -44,17 +44,21 @@ struct Claims {
 };
 [[nodiscard]] Claims claims(const PartErrors& errors);
 
-/// Classes of visibility: below 0.3, up to 0.5, above.
+/// Classes of visibility: below 0.3, up to 0.5, above. One that is not known is of no class.
 inline constexpr std::size_t visibility_class_count = 3;
 [[nodiscard]] std::size_t visibility_class(float visibility);
+[[nodiscard]] inline bool is_known_visibility(float visibility) { return visibility >= 0.0F; }
 
 /// The figures of a set of images, or of a part of it.
 struct EvaluationRow {
   AverageRecall recall;
   std::size_t targets = 0;
-  Share found;      ///< Of the targets, claimed by an estimate.
-  Share precision;  ///< Of all estimates, right.
-  std::array<Share, visibility_class_count> found_by_visibility;
+  Share found;                                                    ///< Of the targets, claimed by an estimate.
+  Share precision;                                                ///< Of all estimates, right.
+  std::array<Share, visibility_class_count> found_by_visibility;  ///< Of the targets whose visibility is known.
+
+  /// False when there are targets, but how visible they are is known of none.
+  [[nodiscard]] bool visibility_known() const;
 };
 
 /// The row of one part or level.

@@ -118,6 +118,15 @@ TEST_F(Validate, NamesTheBankThatIsMissing) {
   EXPECT_THAT(outcome.errors, HasSubstr("obj_000007.bank"));
 }
 
+TEST_F(Validate, DoesWithoutVisibilities) {
+  std::filesystem::remove(scene_ / "scene_gt_info.json");
+  const GraspdOutcome outcome = validate({"--explain"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, ContainsRegex("all +1\\.000 +1\\.000 +1\\.000 +1\\.000 +- +- +- "));
+  EXPECT_THAT(outcome.output, HasSubstr("visibility not known (no scene_gt_info.json)"));
+  EXPECT_THAT(outcome.output, Not(HasSubstr("best scored instance")));
+}
+
 TEST_F(Validate, DoesWithoutGroundTruth) {
   std::filesystem::remove(scene_ / "scene_gt.json");
   const GraspdOutcome outcome = validate({"--explain"});

@@ -99,6 +99,16 @@ TEST(Summary, AHiddenTruePoseMakesAnEstimateRightButIsNoTarget) {
   EXPECT_EQ(claimed.estimate_of_truth, (std::vector<std::size_t>{0, 2}));
 }
 
+TEST(Summary, AnUnknownVisibilityIsOfNoClass) {
+  const std::vector<ImageErrors> images{{1, 0, "", 1.0, {part_errors(7, 1, {-1.0F}, {true}, {0.02F})}}};
+  const EvaluationSummary summary = summarise(images);
+  EXPECT_EQ(summary.all.found.hits, 1U);
+  for (const Share& share : summary.all.found_by_visibility) EXPECT_EQ(share.total, 0U);
+  EXPECT_FALSE(summary.all.visibility_known());
+  EXPECT_EQ(summary.first_right.total, 0U);
+  EXPECT_TRUE(summarise({}).all.visibility_known());
+}
+
 TEST(Summary, SplitsByPartAndLevelAndPoolsTargets) {
   const PartErrors found = part_errors(2, 1, {0.9F}, {true}, {0.0F});
   const PartErrors missed = part_errors(1, 3, {0.9F, 0.2F, 0.5F}, {true, true, true}, {});
