@@ -8,6 +8,7 @@
 #include "core/bank/bank_writer.hpp"
 #include "core/train/corner_normals.hpp"
 #include "core/train/generalisation.hpp"
+#include "core/train/hidden_pieces.hpp"
 #include "core/train/mesh_simplification.hpp"
 #include "core/train/open_pieces.hpp"
 #include "core/train/part_likeness.hpp"
@@ -243,6 +244,7 @@ Result<std::vector<std::byte>> learn_bank(const PartDescription& part, std::vect
   if (!prepared.ok()) return prepared.status();
   PartMesh mesh = std::move(prepared).value();
   orient_open_pieces(mesh);
+  const Mesh voids = take_hidden_pieces(mesh);
   report = BankReport{};
   report.remarks = mesh.remarks;
   progress(0.05F);
@@ -276,7 +278,8 @@ Result<std::vector<std::byte>> learn_bank(const PartDescription& part, std::vect
   }
   progress(0.7F);
 
-  report.resting = resting_poses(occluder, centre_of_mass(mesh.mesh, mesh.closed()), storage.symmetry);
+  report.resting =
+      resting_poses(occluder, centre_of_mass(with_voids(mesh.mesh, voids), mesh.closed()), storage.symmetry);
   const std::vector<float> weights = view_weights(candidates.directions, report.resting, storage.symmetry);
   const std::vector<RefinedView> refined =
       parameters.full_model ? whole_part(candidates, report)
