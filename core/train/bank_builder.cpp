@@ -84,7 +84,7 @@ float sampling_of(const BankBuildParameters& parameters, const PartMesh& mesh) {
 }
 
 /// The middle of the bounding box, moved to where no symmetry moves it: of a part with three alike sides, the middle of
-/// the box is not that of the sides. Symmetries that would lead out of the part do not fit it, and are remarked on.
+/// the box is not that of the sides.
 Vector3 centre_of(const PartMesh& mesh, const SymmetryGroup& symmetry) {
   const Vector3 middle = 0.5F * (mesh.box_min + mesh.box_max);
   Vector3 centre = Vector3::Zero();
@@ -95,7 +95,7 @@ Vector3 centre_of(const PartMesh& mesh, const SymmetryGroup& symmetry) {
     const Vector3& axis = symmetry.axis.direction;
     centre = symmetry.axis.point + axis * axis.dot(centre - symmetry.axis.point);
   }
-  return (centre - middle).norm() < 0.5F * mesh.diameter ? centre : middle;
+  return centre;
 }
 
 void describe_part(const PartDescription& part, const PartMesh& mesh, const BankBuildParameters& parameters,
@@ -250,7 +250,9 @@ Result<std::vector<std::byte>> learn_bank(const PartDescription& part, std::vect
   progress(0.05F);
 
   BankStorage storage;
-  PartLikeness likeness = likeness_of(part, mesh);
+  Result<PartLikeness> found = likeness_of(part, mesh);
+  if (!found.ok()) return found.status();
+  PartLikeness likeness = std::move(found).value();
   report.symmetry_proposed = likeness.proposed;
   report.remarks.insert(report.remarks.end(), likeness.remarks.begin(), likeness.remarks.end());
   storage.symmetry = std::move(likeness.symmetry);

@@ -101,7 +101,7 @@ struct BankReport {
 /// Makes a bank (paper 2.2 and 2.3): views from the mesh, refined and generalised, the PPF table, the
 /// dense surface. Returns the bytes of the file. `progress` is called with a share in [0, 1].
 /// Fails with bad_file when the mesh cannot make a bank (no faces, NaN vertices, no extent) and with
-/// bad_configuration when a parameter is out of its range.
+/// bad_configuration when a parameter is out of its range or the symmetries given turn the part far away from itself.
 [[nodiscard]] Result<std::vector<std::byte>> build_bank(const PartDescription& part,
                                                         const BankBuildParameters& parameters, BankReport& report,
                                                         const std::function<void(float)>& progress);

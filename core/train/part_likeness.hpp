@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/status.hpp"
 #include "core/train/symmetry_group.hpp"
 
 namespace graspd {
@@ -18,7 +19,8 @@ struct PartLikeness {
   std::vector<std::string> remarks;   ///< Lines worth showing.
 };
 
-/// The symmetries and twins that the part's description gives, or those found on its mesh.
-[[nodiscard]] PartLikeness likeness_of(const PartDescription& part, const PartMesh& mesh);
+/// The symmetries and twins that the part's description gives, or those found on its mesh. Fails with
+/// bad_configuration when the symmetries given turn the part far away from itself.
+[[nodiscard]] Result<PartLikeness> likeness_of(const PartDescription& part, const PartMesh& mesh);
 
 }  // namespace graspd

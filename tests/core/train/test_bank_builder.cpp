@@ -177,6 +177,25 @@ TEST(BankBuilder, ADoubtfulSymmetryIsRemarkedOn) {
   EXPECT_THAT(report.remarks, testing::IsEmpty());
 }
 
+TEST(BankBuilder, ASymmetryBesideThePartIsRefused) {
+  // A CAD file that has the part away from its origin, and an axis without an offset.
+  const RigidTransform aside{Matrix3::Identity(), Vector3(0.32F, 0.0F, 0.01F)};
+  PartDescription half = described(shapes::moved(shapes::box(0.04F, 0.03F, 0.02F), aside));
+  half.symmetry_discrete = {turn_about({Vector3::UnitZ(), Vector3::Zero()}, std::numbers::pi_v<float>)};
+  PartDescription any = described(shapes::moved(shapes::cylinder(0.01F, 0.03F), aside));
+  any.symmetry_continuous = true;
+  BankReport report;
+  for (const PartDescription& part : {half, any}) {
+    const Status refused = build_bank(part, quick(), report, [](float) {}).status();
+    EXPECT_EQ(refused.code(), StatusCode::bad_configuration);
+    EXPECT_THAT(std::string(refused.message()),
+                testing::AllOf(testing::StartsWith("[symmetry] turns the part 640 mm away from itself"),
+                               testing::HasSubstr("(320.0, 0.0, 10.0)")));
+  }
+  half.symmetry_discrete = {turn_about({Vector3::UnitZ(), aside.translation}, std::numbers::pi_v<float>)};
+  EXPECT_TRUE(build_bank(half, quick(), report, [](float) {}).ok());
+}
+
 TEST(BankBuilder, ProgressRunsForwardToItsEnd) {
   std::vector<float> shares;
   BankReport report;
