@@ -83,6 +83,15 @@ std::vector<bool> expected_foreground(const SceneMap& empty, const SceneMap& map
   return foreground;
 }
 
+void remove_background(const SceneMap& empty, SceneMap& map) {
+  std::vector<float> depths;
+  for (const MapCell& cell : empty.cells) depths.push_back(cell.point.z());
+  std::vector<float> bridged = depths;
+  std::vector<float> nearest(depths.size());
+  find_nearest_background(empty.camera, {2}, bridged, nearest);
+  remove_background_by_frame({{}, depths, nearest}, margin, {2}, map);
+}
+
 TEST(BackgroundByFrame, IsBridgedAndJudgedByTheNearestAround) {
   for (const double measured : {0.0, 0.03, 0.5, 1.0}) {
     RandomMap empty(23, 17, 5, measured);
@@ -92,12 +101,7 @@ TEST(BackgroundByFrame, IsBridgedAndJudgedByTheNearestAround) {
     }
     RandomMap scene(23, 17, 6, 0.9);
     const std::vector<bool> expected = expected_foreground(empty.map, scene.map);
-    std::vector<float> depths;
-    for (const MapCell& cell : empty.cells) depths.push_back(cell.point.z());
-    std::vector<float> bridged = depths;
-    std::vector<float> nearest(depths.size());
-    find_nearest_background(empty.map.camera, {2}, bridged, nearest);
-    remove_background_by_frame({{}, depths, nearest}, margin, {2}, scene.map);
+    remove_background(empty.map, scene.map);
     for (std::size_t i = 0; i < expected.size(); ++i) {
       EXPECT_EQ(scene.cells[i].foreground != 0, expected[i]) << "cell " << i << ", measured " << measured;
       EXPECT_EQ(scene.cells[i].background, empty.cells[i].point.z());
@@ -115,12 +119,7 @@ TEST(BackgroundByFrame, FloorThatWasNotMeasuredHidesNoParts) {
       scene.map.at(u, v).point.z() = wall ? 0.60F : 0.75F;
     }
   }
-  std::vector<float> depths;
-  for (const MapCell& cell : empty.cells) depths.push_back(cell.point.z());
-  std::vector<float> bridged = depths;
-  std::vector<float> nearest(depths.size());
-  find_nearest_background(empty.map.camera, {2}, bridged, nearest);
-  remove_background_by_frame({{}, depths, nearest}, margin, {2}, scene.map);
+  remove_background(empty.map, scene.map);
   EXPECT_EQ(scene.map.at(2, 24).foreground, 0U);
   EXPECT_EQ(scene.map.at(32, 2).foreground, 0U);
   EXPECT_NE(scene.map.at(32, 24).foreground, 0U) << "deeper than the walls' rims";
