@@ -1,6 +1,5 @@
 #include "drivers/files/load_frame.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include "drivers/files/cloud_file.hpp"
 #include "drivers/files/depth_image.hpp"
 #include "drivers/files/measured_depth.hpp"
+#include "drivers/files/text_scanner.hpp"
 
 namespace graspd {
 
@@ -20,9 +20,7 @@ namespace fs = std::filesystem;
 enum class FrameKind : std::uint8_t { image, cloud, unknown };
 
 FrameKind kind_of(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string ending = lower_case(path.extension().string());
   if (ending == ".png" || ending == ".tif" || ending == ".tiff") return FrameKind::image;
   if (ending == ".ply" || ending == ".pcd") return FrameKind::cloud;
   return FrameKind::unknown;

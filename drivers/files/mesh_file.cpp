@@ -1,11 +1,11 @@
 #include "drivers/files/mesh_file.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "drivers/files/obj_file.hpp"
 #include "drivers/files/ply_file.hpp"
 #include "drivers/files/stl_file.hpp"
+#include "drivers/files/text_scanner.hpp"
 #include "drivers/files/whole_file.hpp"
 
 namespace graspd {
@@ -19,9 +19,7 @@ Result<Mesh> parse_ply_mesh(std::string_view bytes, std::string_view name) {
 }
 
 Result<Mesh> parse_mesh(std::string_view bytes, const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string ending = lower_case(path.extension().string());
   if (ending == ".ply") return parse_ply_mesh(bytes, path.string());
   if (ending == ".stl") return parse_stl(bytes, path.string());
   if (ending == ".obj") return parse_obj(bytes, path.string());
