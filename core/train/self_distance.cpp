@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/train/corner_normals.hpp"
 #include "core/train/surface_sampling.hpp"
@@ -27,12 +28,11 @@ std::span<const OrientedPoint> ProbedSurface::first_probes(std::size_t count) co
   return std::span(probes).first(std::min(count, probes.size()));
 }
 
-SelfDistance self_distance(const ProbedSurface& surface, std::span<const OrientedPoint> probes,
-                           const RigidTransform& part_from_part) {
+std::vector<float> self_distances(const ProbedSurface& surface, std::span<const OrientedPoint> probes,
+                                  const RigidTransform& part_from_part) {
   const float diameter = surface.diameter;
   std::vector<float> distances;
   distances.reserve(probes.size());
-  float sum = 0;
   for (const OrientedPoint& probe : probes) {
     const OrientedPoint moved = part_from_part * probe;
     const OrientedPoint& nearest = surface.samples[surface.index.nearest(moved)];
@@ -42,11 +42,14 @@ SelfDistance self_distance(const ProbedSurface& surface, std::span<const Oriente
     const float along = std::max(0.0F, std::sqrt(std::max(0.0F, gap.squaredNorm() - out * out)) - 0.03F * diameter);
     const float turned = 0.05F * std::max(0.0F, 0.9F - moved.normal.dot(nearest.normal)) * diameter;
     distances.push_back((out + along + turned) / diameter);
-    sum += distances.back();
   }
-  const auto most = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 97 / 100);
-  std::nth_element(distances.begin(), most, distances.end());
-  return {sum / static_cast<float>(distances.size()), *most};
+  return distances;
+}
+
+float self_distance(const ProbedSurface& surface, std::span<const OrientedPoint> probes,
+                    const RigidTransform& part_from_part) {
+  const std::vector<float> distances = self_distances(surface, probes, part_from_part);
+  return std::accumulate(distances.begin(), distances.end(), 0.0F) / static_cast<float>(distances.size());
 }
 
 }  // namespace graspd

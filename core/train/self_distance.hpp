@@ -24,18 +24,13 @@ struct ProbedSurface {
   std::vector<OrientedPoint> probes;  ///< An even choice of the samples.
 };
 
-/// How far a part's surface comes to lie from itself when a transform moves it, as shares of the
-/// diameter, over points and the planes of the surface nearest to them.
-struct SelfDistance {
-  float mean = 0;
-  float most = 0;  ///< The distance that 97% of the points keep.
+/// How far each of `probes`, which are the surface's or some of them, comes to lie from the surface when a
+/// transform moves it, as shares of the diameter: over points and the planes of the surface nearest to them.
+[[nodiscard]] std::vector<float> self_distances(const ProbedSurface& surface, std::span<const OrientedPoint> probes,
+                                                const RigidTransform& part_from_part);
 
-  /// Nothing that a depth sensor could tell apart.
-  [[nodiscard]] bool symmetric() const { return mean < 0.004F && most < 0.012F; }
-};
-
-/// Of `probes`, which are the surface's or some of them.
-[[nodiscard]] SelfDistance self_distance(const ProbedSurface& surface, std::span<const OrientedPoint> probes,
-                                         const RigidTransform& part_from_part);
+/// Their mean.
+[[nodiscard]] float self_distance(const ProbedSurface& surface, std::span<const OrientedPoint> probes,
+                                  const RigidTransform& part_from_part);
 
 }  // namespace graspd

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/train/self_distance.hpp"
 #include "core/train/surface_moments.hpp"
+#include "core/train/turned_look.hpp"
 #include "core/train/view_sphere.hpp"
 
 namespace graspd {
@@ -20,17 +20,17 @@ constexpr int most_turns = 72;
 
 /// What the search asks again and again.
 struct Search {
-  const ProbedSurface& surface;
+  const SurroundedSurface& part;
   std::span<const OrientedPoint> probes;
   std::span<const OrientedPoint> few;  ///< The first of the probes, for questions that are asked often.
 
   [[nodiscard]] bool turns(const SymmetryAxis& axis, float angle) const {
     const RigidTransform turn = turn_about(axis, angle);
-    return self_distance(surface, few.first(few.size() / 4), turn).mean < 0.012F &&
-           self_distance(surface, few, turn).mean < 0.008F && self_distance(surface, probes, turn).symmetric();
+    return self_distance(part.surface, few.first(few.size() / 4), turn) < 0.012F &&
+           self_distance(part.surface, few, turn) < 0.008F && looks_the_same(part, turn);
   }
   [[nodiscard]] float glance(const SymmetryAxis& axis, float angle) const {
-    return self_distance(surface, few, turn_about(axis, angle)).mean;
+    return self_distance(part.surface, few, turn_about(axis, angle));
   }
 };
 
@@ -70,7 +70,7 @@ FoundAxis turns_about(const Search& search, const SymmetryAxis& axis) {
 SymmetryAxis sharpen(const Search& search, std::span<const OrientedPoint> probes, SymmetryAxis axis, float angle,
                      float step) {
   const auto miss = [&](const SymmetryAxis& candidate) {
-    return self_distance(search.surface, probes, turn_about(candidate, angle)).mean;
+    return self_distance(search.part.surface, probes, turn_about(candidate, angle));
   };
   float best = miss(axis);
   for (; step > 0.0005F; step *= 0.5F) {
@@ -78,7 +78,7 @@ SymmetryAxis sharpen(const Search& search, std::span<const OrientedPoint> probes
     const Vector3 other = axis.direction.cross(across);
     for (const Vector3& move : {across, Vector3(-across), other, Vector3(-other)}) {
       const SymmetryAxis tilted{(axis.direction + step * move).normalized(), axis.point};
-      const SymmetryAxis shifted{axis.direction, axis.point + 0.25F * step * search.surface.diameter * move};
+      const SymmetryAxis shifted{axis.direction, axis.point + 0.25F * step * search.part.surface.diameter * move};
       for (const SymmetryAxis& candidate : {tilted, shifted}) {
         const float distance = miss(candidate);
         if (distance < best) {
@@ -99,13 +99,13 @@ SymmetryAxis snap(const Search& search, const SymmetryAxis& axis, float angle) {
   SymmetryAxis straight = axis;
   straight.direction = Vector3::Unit(along);
   // Below a thousandth of the diameter, a place is that of a round number.
-  const float grain = 0.002F * search.surface.diameter;
+  const float grain = 0.002F * search.part.surface.diameter;
   for (Eigen::Index i = 0; i < 3; ++i) {
     const float round = std::round(axis.point[i] * 2000.0F) / 2000.0F;
     if (i != along && std::abs(round - axis.point[i]) < grain) straight.point[i] = round;
   }
   const auto miss = [&](const SymmetryAxis& candidate) {
-    return self_distance(search.surface, search.probes, turn_about(candidate, angle)).mean;
+    return self_distance(search.part.surface, search.probes, turn_about(candidate, angle));
   };
   return miss(straight) < miss(axis) + 0.0005F ? straight : axis;
 }
@@ -189,8 +189,10 @@ void add_axes(const Search& search, const SurfaceMoments& moments, std::span<con
     const FoundAxis boxed = turns_about(search, {direction, moments.box_middle});
     if (boxed.rank() > turns.rank()) turns = boxed;
     if (turns.fold == 1) continue;
-    turns.axis = snap(search, sharpen(search, search.probes, turns.axis, turns.angle(), 0.02F), turns.angle());
-    found.push_back(turns);
+    turns = turns_about(search,
+                        snap(search, sharpen(search, search.probes, turns.axis, turns.angle(), 0.02F), turns.angle()));
+    // What holds about a slanted axis alone was no symmetry.
+    if (turns.fold != 1) found.push_back(turns);
   }
 }
 
@@ -198,8 +200,8 @@ void add_axes(const Search& search, const SurfaceMoments& moments, std::span<con
 
 SymmetryGroup detect_symmetry(const Mesh& mesh, float diameter) {
   const SurfaceMoments moments = surface_moments(mesh);
-  const ProbedSurface surface(mesh, diameter, 20000, 1000);
-  const Search search{surface, surface.probes, surface.first_probes(100)};
+  const SurroundedSurface part(mesh, diameter);
+  const Search search{part, part.surface.first_probes(1000), part.surface.first_probes(100)};
 
   std::vector<FoundAxis> found;
   bool alike = false;
@@ -223,9 +225,8 @@ SymmetryGroup detect_symmetry(const Mesh& mesh, float diameter) {
   }
   const SymmetryGroup group = close_group(generators, main.continuous(), main.axis, diameter);
   // Axes that each fit nearly can generate turns that do not.
-  const bool holds = std::all_of(group.discrete.begin(), group.discrete.end(), [&](const RigidTransform& member) {
-    return self_distance(surface, surface.probes, member).symmetric();
-  });
+  const bool holds = std::all_of(group.discrete.begin(), group.discrete.end(),
+                                 [&](const RigidTransform& member) { return looks_the_same(part, member); });
   return holds ? group : turns;
 }
 
@@ -233,7 +234,7 @@ float group_distance(const Mesh& mesh, const SymmetryGroup& group, float diamete
   const ProbedSurface surface(mesh, diameter, 20000, 200);
   float worst = 0;
   for (const RigidTransform& member : sampled_members(group, 7)) {
-    worst = std::max(worst, self_distance(surface, surface.probes, member).mean);
+    worst = std::max(worst, self_distance(surface, surface.probes, member));
   }
   return worst;
 }

@@ -60,13 +60,13 @@ std::vector<RigidTransform> find_twins(const Mesh& mesh, const SymmetryGroup& gr
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < tries.size(); ++i) {
     // A part that looks alike at any turn would slide back to where it came from.
-    found[i] = {tries[i], self_distance(surface, surface.probes, tries[i]).mean};
+    found[i] = {tries[i], self_distance(surface, surface.probes, tries[i])};
     if (found[i].distance < alike) continue;
     const Alignment rough = align_to_surface(surface.index, few, tries[i], 0.15F * diameter);
-    if (self_distance(surface, few, rough.surface_from_points).mean > 2.0F * alike) continue;
+    if (self_distance(surface, few, rough.surface_from_points) > 2.0F * alike) continue;
     const Alignment close =
         align_to_surface(surface.index, surface.probes, rough.surface_from_points, 0.05F * diameter);
-    found[i] = {close.surface_from_points, self_distance(surface, surface.probes, close.surface_from_points).mean};
+    found[i] = {close.surface_from_points, self_distance(surface, surface.probes, close.surface_from_points)};
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Likeness& a, const Likeness& b) { return a.distance < b.distance; });

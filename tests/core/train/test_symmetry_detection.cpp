@@ -68,6 +68,68 @@ TEST(SymmetryDetection, AKeyOnACylinderLeavesNoTurn) {
   EXPECT_TRUE(found(shapes::joined(shapes::cylinder(0.01F, 0.05F), key)).trivial());
 }
 
+/// The solid between two outlines of as many corners each, counter-clockwise, one about the other.
+Mesh frame(const std::vector<Eigen::Vector2f>& outer, const std::vector<Eigen::Vector2f>& inner, float height) {
+  Mesh mesh;
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    for (const float z : {-0.5F * height, 0.5F * height}) {
+      mesh.vertices.emplace_back(outer[i].x(), outer[i].y(), z);
+      mesh.vertices.emplace_back(inner[i].x(), inner[i].y(), z);
+    }
+  }
+  enum : std::uint8_t { outer_below, inner_below, outer_above, inner_above };
+  const auto wall = [&](std::uint32_t i, std::uint32_t j, std::uint32_t from, std::uint32_t to) {
+    mesh.triangles.push_back({i + from, j + from, j + to});
+    mesh.triangles.push_back({i + from, j + to, i + to});
+  };
+  const auto corners = static_cast<std::uint32_t>(4 * outer.size());
+  for (std::uint32_t i = 0; i < corners; i += 4) {
+    const std::uint32_t j = (i + 4) % corners;
+    wall(i, j, outer_below, outer_above);
+    wall(i, j, outer_above, inner_above);
+    wall(i, j, inner_above, inner_below);
+    wall(i, j, inner_below, outer_below);
+  }
+  return mesh;
+}
+
+std::vector<Eigen::Vector2f> rectangle(const Eigen::Vector2f& middle, float x, float y) {
+  std::vector<Eigen::Vector2f> corners;
+  for (const auto& [a, b] : {std::pair{-1, -1}, std::pair{1, -1}, std::pair{1, 1}, std::pair{-1, 1}}) {
+    corners.push_back(middle + 0.5F * Eigen::Vector2f(static_cast<float>(a) * x, static_cast<float>(b) * y));
+  }
+  return corners;
+}
+
+std::vector<Eigen::Vector2f> circle(float radius) {
+  std::vector<Eigen::Vector2f> corners;
+  for (int i = 0; i < 64; ++i) {
+    const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(i) / 64.0F;
+    corners.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return corners;
+}
+
+TEST(SymmetryDetection, AHoleTellsTheEndsOfAPlateApart) {
+  const std::vector<Eigen::Vector2f> outline = rectangle({0.0F, 0.0F}, 0.1F, 0.06F);
+  for (const float width : {0.011F, 0.015F}) {
+    const Mesh plate = frame(outline, rectangle({-0.03F, 0.0F}, width, width), 0.005F);
+    const SymmetryGroup group = found(plate);
+    EXPECT_EQ(group.discrete.size(), 2U) << width;
+    EXPECT_LT(group_distance(plate, group, 0.117F), 0.002F) << "it may be turned over its long side only";
+  }
+  EXPECT_EQ(found(frame(outline, rectangle({0.0F, 0.0F}, 0.011F, 0.011F), 0.005F)).discrete.size(), 4U);
+}
+
+TEST(SymmetryDetection, WhatFewViewsShowDoesNotTakeASymmetry) {
+  const Mesh tube = frame(circle(0.02F), circle(0.016F), 0.05F);
+  const auto key_at = [](float radius) {
+    return shapes::moved(shapes::box(0.004F, 0.004F, 0.012F), {Matrix3::Identity(), Vector3(radius, 0, 0)});
+  };
+  EXPECT_TRUE(found(shapes::joined(tube, key_at(0.015F))).continuous) << "a key in the bore";
+  EXPECT_FALSE(found(shapes::joined(tube, key_at(0.021F))).continuous) << "a key outside";
+}
+
 TEST(SymmetryDetection, AWrongSymmetryShowsItsDistance) {
   const RigidTransform quarter = turn_about({Vector3::UnitZ(), Vector3::Zero()}, std::numbers::pi_v<float> / 2);
   const SymmetryGroup wrong = close_group(std::span(&quarter, 1), false, {}, 0.08F);
