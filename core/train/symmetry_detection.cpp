@@ -26,8 +26,8 @@ struct Search {
 
   [[nodiscard]] bool turns(const SymmetryAxis& axis, float angle) const {
     const RigidTransform turn = turn_about(axis, angle);
-    return self_distance(part.surface, few.first(few.size() / 4), turn) < 0.012F &&
-           self_distance(part.surface, few, turn) < 0.008F && looks_the_same(part, turn);
+    return self_distance(part.surface, few.first(few.size() / 4), turn) < 0.025F &&
+           self_distance(part.surface, few, turn) < 0.015F && looks_the_same(part, turn);
   }
   [[nodiscard]] float glance(const SymmetryAxis& axis, float angle) const {
     return self_distance(part.surface, few, turn_about(axis, angle));

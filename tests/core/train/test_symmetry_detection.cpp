@@ -123,11 +123,12 @@ TEST(SymmetryDetection, AHoleTellsTheEndsOfAPlateApart) {
 
 TEST(SymmetryDetection, WhatFewViewsShowDoesNotTakeASymmetry) {
   const Mesh tube = frame(circle(0.02F), circle(0.016F), 0.05F);
-  const auto key_at = [](float radius) {
-    return shapes::moved(shapes::box(0.004F, 0.004F, 0.012F), {Matrix3::Identity(), Vector3(radius, 0, 0)});
+  const auto with_key = [&](const Vector3& size, float radius) {
+    const RigidTransform place{Matrix3::Identity(), Vector3(radius, 0, 0)};
+    return shapes::joined(tube, shapes::moved(shapes::box(size.x(), size.y(), size.z()), place));
   };
-  EXPECT_TRUE(found(shapes::joined(tube, key_at(0.015F))).continuous) << "a key in the bore";
-  EXPECT_FALSE(found(shapes::joined(tube, key_at(0.021F))).continuous) << "a key outside";
+  EXPECT_TRUE(found(with_key({0.006F, 0.006F, 0.03F}, 0.013F)).continuous) << "in the bore";
+  EXPECT_FALSE(found(with_key({0.004F, 0.004F, 0.012F}, 0.021F)).continuous) << "outside";
 }
 
 TEST(SymmetryDetection, AWrongSymmetryShowsItsDistance) {
