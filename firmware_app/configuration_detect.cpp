@@ -21,6 +21,7 @@ RequestBox read_box(SettingsTable table) {
 
 void read_match(SettingsTable table, DetectParameters& parameters) {
   table.read("reference_step", parameters.match.reference_step, 1, 100);
+  table.read("minimum_references", parameters.match.minimum_references, 1, 100000);
   table.read("peaks_per_reference", parameters.match.peaks_per_reference, 1, 100);
   table.read("minimum_peak_share", parameters.match.minimum_peak_share, 0, 1);
   table.read("voting_budget", parameters.match.budget, 1, 1000000);

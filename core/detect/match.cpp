@@ -50,6 +50,13 @@ class ReferenceClasses {
   std::array<std::size_t, count> order_{};
 };
 
+/// A scene of few points, as a sensor of few pixels shows it, can afford that more of them vote.
+std::size_t asked_reference_step(std::size_t points, const MatchParameters& parameters) {
+  const auto references = static_cast<std::size_t>(std::max(1, parameters.minimum_references));
+  const auto step = static_cast<std::size_t>(std::max(1, parameters.reference_step));
+  return std::clamp<std::size_t>(points / references, 1, step);
+}
+
 /// How many more classes the budget allows, when `done` of them took `work`.
 std::size_t affordable(const VotingWork& work, std::size_t done, int millions) {
   const std::uint64_t each = std::max<std::uint64_t>(1, work.effort / done);
@@ -79,7 +86,7 @@ VotingWork match(const NeighbourGrid& scene, const Bank& bank, const MatchParame
   const Voting vote = voting_with(widest_instruction_set());
   const std::size_t per_reference =
       std::clamp<std::size_t>(static_cast<std::size_t>(parameters.peaks_per_reference), 1, most_peaks);
-  const auto asked_step = static_cast<std::size_t>(std::max(1, parameters.reference_step));
+  const std::size_t asked_step = asked_reference_step(scene.points.size(), parameters);
   std::size_t step = asked_step;
   // Too many references for the memory: every so many more are passed over, evenly over the scene.
   while ((scene.points.size() / step + 1) * per_reference > workspace.slots.size()) ++step;

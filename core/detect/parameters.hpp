@@ -30,7 +30,8 @@ struct PreprocessParameters {
 
 /// Voting (paper 1.3 and 2.4).
 struct MatchParameters {
-  int reference_step = 3;           ///< Every so many scene points one is a reference point.
+  int reference_step = 3;           ///< Every so many scene points one is a reference point,
+  int minimum_references = 400;     ///< but more of them where so many would not be.
   int peaks_per_reference = 6;      ///< Poses kept for a reference, over all views.
   float minimum_peak_share = 0.5F;  ///< A peak counts when it has this share of the votes of the best one.
   int budget = 1000;                ///< VotingWork::effort of one part, in millions.

@@ -29,8 +29,7 @@ float typical_depth(const DepthFrame& frame) {
   return 0.5F * (low + high);
 }
 
-int stride_for(const DepthFrame& frame, float detail, float cells_per_detail, std::size_t most_cells) {
-  const float detail_pixels = detail * frame.camera.fx / std::max(typical_depth(frame), 0.01F);
+int stride_for(const DepthFrame& frame, float detail_pixels, float cells_per_detail, std::size_t most_cells) {
   int stride = std::max(1, static_cast<int>(std::lround(detail_pixels / cells_per_detail)));
   while (make_scene_map(frame.camera, stride, {}).camera.pixel_count() > most_cells) ++stride;
   return stride;
@@ -57,7 +56,10 @@ PreprocessWorkspace carve_preprocess_workspace(Arena& arena, const DetectCapacit
 Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float detail,
                  const PreprocessParameters& parameters, const Execution& execution, PreprocessWorkspace& workspace) {
   Scene scene;
-  const int stride = stride_for(frame, detail, parameters.cells_per_detail, workspace.map_cells.size());
+  const float detail_pixels = detail * frame.camera.fx / std::max(typical_depth(frame), 0.01F);
+  const int stride = stride_for(frame, detail_pixels, parameters.cells_per_detail, workspace.map_cells.size());
+  // Fewer than asked for where the sensor resolves less.
+  const float detail_cells = std::min(parameters.cells_per_detail, detail_pixels / static_cast<float>(stride));
   scene.map = make_scene_map(frame.camera, stride, workspace.map_cells);
   bin_frame(frame, execution, workspace.depths, scene.map);
   if (execution.late()) return scene;
@@ -80,11 +82,12 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float det
   }
   if (execution.late()) return scene;
   if (parameters.segmentation) {
-    const auto cells = static_cast<std::uint32_t>(2.0F * parameters.cells_per_detail * parameters.cells_per_detail);
-    segment_foreground(cells, execution, workspace.segments, scene.map);
+    // Of two details a side or so, but no lone speck however small a detail is.
+    const float cells = std::max(2.0F * detail_cells * detail_cells, 4.0F);
+    segment_foreground(static_cast<std::uint32_t>(cells), execution, workspace.segments, scene.map);
     if (execution.late()) return scene;
   }
-  const int radius = std::clamp(static_cast<int>(std::lround(0.5F * parameters.cells_per_detail)), 1, 4);
+  const int radius = std::clamp(static_cast<int>(std::ceil(0.5F * detail_cells)), 1, 4);
   fit_normals(radius, execution, scene.map);
   if (execution.late()) return scene;
 

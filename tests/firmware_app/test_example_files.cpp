@@ -116,6 +116,7 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(detect.parameters.preprocess.background_margin);
   GRASPD_COMPARE(detect.parameters.preprocess.segmentation);
   GRASPD_COMPARE(detect.parameters.match.reference_step);
+  GRASPD_COMPARE(detect.parameters.match.minimum_references);
   GRASPD_COMPARE(detect.parameters.match.budget);
   GRASPD_COMPARE(detect.parameters.match.peaks_per_reference);
   GRASPD_COMPARE(detect.parameters.match.minimum_peak_share);

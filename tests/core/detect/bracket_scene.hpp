@@ -66,11 +66,12 @@ class BracketBank {
 
 /// Six brackets on a floor across the optical axis: some on their side, some on a leg, two of them touching.
 struct BracketScene {
-  Camera camera{400, 300, 500.0F, 500.0F, 199.5F, 149.5F};
+  Camera camera;
   std::vector<RigidTransform> poses;
   std::vector<float> depth;
 
-  BracketScene() : depth(camera.pixel_count(), floor) {
+  explicit BracketScene(const Camera& seen_by = {400, 300, 500.0F, 500.0F, 199.5F, 149.5F})
+      : camera(seen_by), depth(camera.pixel_count(), floor) {
     const auto turn = [](float angle, const Vector3& axis) {
       return Eigen::AngleAxisf(angle, axis).toRotationMatrix();
     };
