@@ -108,6 +108,9 @@ void add_pile_options(CLI::App& command, SimulateOptions& options) {
   add("--scenes", piles.scenes, "So many scenes, each another pile")->check(CLI::Range(1, 1000));
   add("--instances", piles.instances, "Parts in each scene")->check(CLI::Range(1, 200));
   add("--distance", piles.distance, "Millimetres from the sensor to the bin's floor")->check(CLI::Range(100.0, 5000.0));
+  add("--pixels", piles.pixels,
+      "Pixels along the smallest part, on the bin's floor; fewer where the bin would not fit into 1280x960")
+      ->check(CLI::Range(10.0, 1000.0));
   add("--seed", piles.seed, "The same number makes the same scenes, another one others");
   std::vector<std::string> names;
   for (const auto& [name, strain] : strains) names.emplace_back(name);

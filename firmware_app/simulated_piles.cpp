@@ -74,6 +74,7 @@ std::vector<SimulatedScene> piles_of(std::span<const SimulatedPart> parts, const
     recipe.instances = static_cast<std::size_t>(options.instances);
     recipe.strain = options.strain;
     recipe.sensor_distance = static_cast<float>(options.distance / 1e3);
+    recipe.pixels_along_part = static_cast<float>(options.pixels);
     recipe.setting_seed = options.seed;
     recipe.seed = word_at(options.seed, i);
     scenes[i] = simulate_scene(parts, recipe);

@@ -17,6 +17,7 @@ struct PileOptions {
   int instances = 12;  ///< In each scene.
   SensorStrain strain = SensorStrain::medium;
   double distance = 750.0;  ///< Millimetres, from the sensor to the bin's floor.
+  double pixels = 150.0;    ///< Along the smallest part; fewer where the bin would not fit into 1280x960.
   std::uint64_t seed = 1;
   double step = 0.1;  ///< Millimetres; the sensor measures whole steps.
   std::string save;   ///< Scene folder in BOP's form for frames, empty bin and true poses; empty: nowhere.

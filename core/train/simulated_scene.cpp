@@ -12,7 +12,6 @@ namespace graspd {
 
 namespace {
 
-constexpr float pixels_along_part = 150.0F;
 constexpr float baseline_share = 0.22F;  ///< Of the distance to the bin.
 constexpr float most_tilt = 0.18F;       ///< Radians off the vertical.
 
@@ -75,7 +74,7 @@ Camera fitting_camera(std::span<const SimulatedPart> parts, const SceneRecipe& r
   float smallest = std::numeric_limits<float>::infinity();
   for (const SimulatedPart& part : parts) smallest = std::min(smallest, part.shape.diameter);
   constexpr float margin = 1.15F;
-  float pitch = recipe.pixel_pitch > 0.0F ? recipe.pixel_pitch : smallest / pixels_along_part;
+  float pitch = recipe.pixel_pitch > 0.0F ? recipe.pixel_pitch : smallest / recipe.pixels_along_part;
   pitch = std::max({pitch, 2.0F * margin * bin.half_width / static_cast<float>(recipe.maximum_width),
                     2.0F * margin * bin.half_length / static_cast<float>(recipe.maximum_height)});
   Camera camera;

@@ -23,9 +23,10 @@ struct SimulatedPart {
 struct SceneRecipe {
   std::size_t instances = 10;
   SensorStrain strain = SensorStrain::medium;
-  float sensor_distance = 0.75F;  ///< Metres, from the sensor to the bin's floor.
-  float pixel_pitch = 0.0F;       ///< Metres between pixels at that distance; 0: 150 pixels along the smallest part.
-  int maximum_width = 1280;       ///< Pixels; the pitch grows where the bin would not fit in.
+  float sensor_distance = 0.75F;     ///< Metres, from the sensor to the bin's floor.
+  float pixels_along_part = 150.0F;  ///< Along the smallest part, at that distance.
+  float pixel_pitch = 0.0F;          ///< Metres between pixels there instead; 0: as the pixels along the part say.
+  int maximum_width = 1280;          ///< Pixels; the pitch grows where the bin would not fit in.
   int maximum_height = 960;
   float layers = 1.5F;  ///< How deep the parts lie, on average.
   float rim = 0.0F;     ///< How thick the bin's walls are (metres): so broad is the ledge on top of them.

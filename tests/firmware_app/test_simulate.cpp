@@ -98,6 +98,23 @@ TEST_F(SimulatedPiles, LieWhereTheirTruePosesSay) {
   }
 }
 
+TEST_F(SimulatedPiles, ShowAsManyPixelsAlongAPartAsAreAskedFor) {
+  const auto camera = [this](const char* pixels, const std::string& saved) {
+    look_at_piles({"--parts", part_file_, "--scenes", "1", "--instances", "3", "--pixels", pixels, "--save",
+                   folder_.path(saved)});
+    camera_.reset();
+    const std::vector<LoadedFrame> frames = frames_of(folder_.path(saved));
+    return frames.empty() ? Camera{} : frames[0].camera;
+  };
+  const Camera coarse = camera("30", "a/1");
+  const Camera fine = camera("90", "b/1");
+  const float metres_apart = 0.5F / coarse.fx;
+  const float diameter = Vector3(0.060F, 0.040F, 0.025F).norm();
+  EXPECT_NEAR(diameter / metres_apart, 30.0F, 0.3F);
+  EXPECT_NEAR(fine.fx / coarse.fx, 3.0F, 1e-3F);
+  EXPECT_NEAR(static_cast<float>(fine.width) / static_cast<float>(coarse.width), 3.0F, 0.1F);
+}
+
 TEST_F(SimulatedPiles, AFolderOfFramesIsPlayedToo) {
   const std::string folder = folder_.path("frames");
   std::filesystem::create_directories(folder);
