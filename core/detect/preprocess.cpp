@@ -82,8 +82,8 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float det
   }
   if (execution.late()) return scene;
   if (parameters.segmentation) {
-    // Of two details a side or so, but no lone speck however small a detail is.
-    const float cells = std::max(2.0F * detail_cells * detail_cells, 4.0F);
+    // Drop-out tears a surface into pieces that are smaller than a detail; a lone speck is none, however small that is.
+    const float cells = std::max(0.5F * detail_cells * detail_cells, 4.0F);
     segment_foreground(static_cast<std::uint32_t>(cells), execution, workspace.segments, scene.map);
     if (execution.late()) return scene;
   }
