@@ -120,8 +120,7 @@ void add_validate_command(CLI::App& command_line, Status& outcome) {
   options->validation.split = "test";
   CLI::App* command = command_line.add_subcommand("validate", "Measure recall on recorded frames with known poses");
   command->add_option("--bop", options->validation.root, "Data set in BOP format")->required();
-  command->add_option("--split", options->validation.split, "Its images: <split>_targets_bop19.json lists them")
-      ->capture_default_str();
+  command->add_option("--split", options->validation.split, "Folder of the scenes to look at")->capture_default_str();
   command->add_option("--banks", options->validation.bank_folder, "Folder with obj_000001.bank ...")->required();
   command->add_option("-o,--output", options->output, "Results in BOP's form (CSV)")->required();
   command->add_option("--threads", options->validation.threads, "Threads; the result does not depend on them")
@@ -148,10 +147,11 @@ void add_validate_command(CLI::App& command_line, Status& outcome) {
   command->add_option("--picture-dir", options->validation.picture_folder,
                       "Write each frame with the instances found into this folder");
   command->footer(
-      "For each image of the targets file, detects the objects listed for it (their counts are not\n"
-      "used), writes every instance reported at the default threshold, then prints average recall,\n"
-      "recall by visibility, the share of reported instances that are right, by score too, and seconds\n"
-      "a frame.\n"
+      "For each image of <split>_targets_bop19.json, detects the objects listed for it (their counts\n"
+      "are not used), writes every instance reported at the default threshold, then prints average\n"
+      "recall, recall by visibility, the share of reported instances that are right, by score too, and\n"
+      "seconds a frame. Without such a file, test_targets_bop19.json is read for a split named test_...,\n"
+      "and else what the scenes' ground truth shows a tenth or more of is looked for.\n"
       "The time of a row is that of its whole frame: depth in memory to verified instances.\n"
       "\n"
       "Example:\n"

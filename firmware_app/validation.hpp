@@ -17,7 +17,7 @@ namespace graspd {
 /// What `graspd validate` is asked for.
 struct ValidationOptions {
   std::string root;            ///< A BOP data set.
-  std::string split;           ///< Its folder of scenes and the first word of its targets file.
+  std::string split;           ///< Its folder of scenes; what to look for is as read_bop_targets says.
   std::string bank_folder;     ///< Holds obj_000001.bank and so on.
   std::string picture_folder;  ///< Where annotated pictures go; empty: nowhere.
   std::vector<int> images;     ///< Numbers of the images to look at in each scene; empty: all.
@@ -39,7 +39,7 @@ struct Validation {
   Explanation explanation;  ///< Empty unless asked for.
 };
 
-/// Detects, in each image of `split`_targets_bop19.json, the parts that are listed for it (their counts
+/// Detects, in each image of the split's targets, the parts that are listed for it (their counts
 /// are not used) and compares what is reported with the ground truth where there is one. `progress` gets
 /// the share done and the image in hand. Fails as reading data sets, frames and banks does.
 [[nodiscard]] Result<Validation> validate(const ValidationOptions& options,

@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
-#include <tuple>
 
 #include "drivers/files/depth_image.hpp"
 #include "drivers/files/json_file.hpp"
@@ -101,6 +100,14 @@ fs::path find_depth_file(const fs::path& stem) {
   return {};
 }
 
+/// Some data sets have several kinds of models; where there is none the error shall name the usual folder.
+fs::path find_model_folder(const fs::path& root) {
+  for (const char* name : {"models", "models_cad", "models_eval", "models_reconst"}) {
+    if (is_there(root / name / "models_info.json")) return root / name;
+  }
+  return root / "models";
+}
+
 }  // namespace
 
 std::string bop_number(int number) {
@@ -175,29 +182,8 @@ Result<std::vector<BopInstance>> read_bop_ground_truth(const fs::path& scene_fol
   return instances;
 }
 
-Result<std::vector<BopTarget>> read_bop_targets(const fs::path& root, const std::string& split) {
-  const fs::path path = root / (split + "_targets_bop19.json");
-  const Result<nlohmann::json> json = read_json(path);
-  if (!json.ok()) return json.status();
-  if (!json.value().is_array()) {
-    return Status::format(StatusCode::bad_file, "%s: not a list of targets", path.c_str());
-  }
-  std::vector<BopTarget> targets;
-  for (std::size_t i = 0; i < json.value().size(); ++i) {
-    JsonFields fields(json.value()[i], path.string() + ": target " + std::to_string(i));
-    targets.push_back({fields.integer("scene_id"), fields.integer("im_id"), fields.integer("obj_id"),
-                       fields.has("inst_count") ? fields.integer("inst_count") : 1});
-    if (!fields.status().ok()) return fields.status();
-  }
-  if (targets.empty()) return Status::format(StatusCode::bad_file, "%s: no targets", path.c_str());
-  std::sort(targets.begin(), targets.end(), [](const BopTarget& a, const BopTarget& b) {
-    return std::tie(a.scene_id, a.im_id, a.obj_id) < std::tie(b.scene_id, b.im_id, b.obj_id);
-  });
-  return targets;
-}
-
 Result<std::vector<BopModel>> read_bop_models(const fs::path& root) {
-  const fs::path folder = root / "models";
+  const fs::path folder = find_model_folder(root);
   const fs::path path = folder / "models_info.json";
   const Result<nlohmann::json> json = read_json(path);
   if (!json.ok()) return json.status();

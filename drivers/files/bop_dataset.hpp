@@ -38,7 +38,7 @@ struct BopInstance {
   float visible_share = -1.0F;  ///< visib_fract of scene_gt_info.json; -1 when there is none.
 };
 
-/// One line of <split>_targets_bop19.json.
+/// One line of <split>_targets_bop19.json: an object that is to be found in an image.
 struct BopTarget {
   int scene_id = 0;
   int im_id = 0;
@@ -81,11 +81,14 @@ struct BopResult {
 /// Reads scene_gt.json and, when it is there, scene_gt_info.json; by rising im_id, in the file's order.
 [[nodiscard]] Result<std::vector<BopInstance>> read_bop_ground_truth(const std::filesystem::path& scene_folder);
 
-/// Reads `root`/`split`_targets_bop19.json; by scene, image and object.
+/// What to look for in the images of `split`, by scene, image and object: what `root`/`split`_targets_bop19.json lists;
+/// else, of test_primesense say, test_targets_bop19.json; else every object of the ground truth of `root`/`split` of
+/// which a tenth or more is visible, which is what BOP lists.
 [[nodiscard]] Result<std::vector<BopTarget>> read_bop_targets(const std::filesystem::path& root,
                                                               const std::string& split);
 
-/// Reads `root`/models/models_info.json; by rising obj_id. Every mesh file must be there.
+/// Reads models_info.json of `root`/models, or else of models_cad, models_eval or models_reconst; by rising obj_id.
+/// Every mesh file must be there.
 [[nodiscard]] Result<std::vector<BopModel>> read_bop_models(const std::filesystem::path& root);
 
 /// Reads the depth of one image (depth/000000.png, .tif or .tiff) with `empty_file` as the empty bin; when none is

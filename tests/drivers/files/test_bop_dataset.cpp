@@ -98,6 +98,45 @@ TEST_F(BopDataset, TargetsAreSorted) {
   EXPECT_THAT(refusal(read_bop_targets(folder_.root(), "val")), HasSubstr("target 0: im_id must be a whole number"));
 }
 
+TEST_F(BopDataset, SplitsOfOneSensorShareTheirTargets) {
+  fs::rename(folder_.root() / "val_targets_bop19.json", folder_.root() / "test_targets_bop19.json");
+  fs::rename(folder_.root() / "val", folder_.root() / "test_primesense");
+  EXPECT_EQ(read_bop_targets(folder_.root(), "test_primesense").value().size(), 2U);
+  folder_.write("test_primesense_targets_bop19.json", R"([{"scene_id": 3, "im_id": 7, "obj_id": 2}])");
+  EXPECT_EQ(read_bop_targets(folder_.root(), "test_primesense").value().size(), 1U);
+}
+
+TEST_F(BopDataset, WithoutATargetsFileWhatIsVisibleIsATarget) {
+  fs::remove(folder_.root() / "val_targets_bop19.json");
+  const auto count = [&] {
+    const Result<std::vector<BopTarget>> targets = read_bop_targets(folder_.root(), "val");
+    if (!targets.ok() || targets.value().size() != 1) return -1;
+    const BopTarget& target = targets.value().front();
+    return target.scene_id == 3 && target.im_id == 7 && target.obj_id == 2 ? target.inst_count : -1;
+  };
+  EXPECT_EQ(count(), 2);
+  folder_.change("val/000003/scene_gt_info.json", "0.25", "0.09");
+  EXPECT_EQ(count(), 1);
+  folder_.change("val/000003/scene_gt_info.json", "1.0", "0.0");
+  EXPECT_THAT(refusal(read_bop_targets(folder_.root(), "val")), HasSubstr("val: nothing visible in the ground truth"));
+  fs::remove(folder_.scene() / "scene_gt_info.json");
+  EXPECT_EQ(count(), 2);
+  folder_.change("val/000003/scene_gt.json", "\"obj_id\": 2", "\"obj_id\": 2.5");
+  EXPECT_THAT(refusal(read_bop_targets(folder_.root(), "val")), HasSubstr("object 0: obj_id must be a whole number"));
+  fs::remove(folder_.scene() / "scene_gt.json");
+  EXPECT_THAT(refusal(read_bop_targets(folder_.root(), "val")), HasSubstr("val_targets_bop19.json: No such file"));
+}
+
+TEST_F(BopDataset, ModelsOfAnotherKind) {
+  fs::create_directory(folder_.root() / "models_eval");
+  fs::rename(folder_.root() / "models", folder_.root() / "models_cad");
+  const Result<std::vector<BopModel>> models = read_bop_models(folder_.root());
+  ASSERT_TRUE(models.ok()) << models.status().message();
+  EXPECT_EQ(models.value().front().mesh_file, folder_.root() / "models_cad" / "obj_000002.ply");
+  fs::remove(folder_.root() / "models_cad" / "models_info.json");
+  EXPECT_THAT(refusal(read_bop_models(folder_.root())), HasSubstr("models/models_info.json: No such file"));
+}
+
 TEST_F(BopDataset, ModelsWithSymmetriesInMetres) {
   const Result<std::vector<BopModel>> models = read_bop_models(folder_.root());
   ASSERT_TRUE(models.ok()) << models.status().message();
