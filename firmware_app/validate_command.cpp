@@ -121,6 +121,8 @@ void add_validate_command(CLI::App& command_line, Status& outcome) {
   CLI::App* command = command_line.add_subcommand("validate", "Measure recall on recorded frames with known poses");
   command->add_option("--bop", options->validation.root, "Data set in BOP format")->required();
   command->add_option("--split", options->validation.split, "Folder of the scenes to look at")->capture_default_str();
+  command->add_option("--sensor", options->validation.sensor,
+                      "Read depth_NAME, scene_camera_NAME.json and so on, where scenes hold the files of several");
   command->add_option("--banks", options->validation.bank_folder, "Folder with obj_000001.bank ...")->required();
   command->add_option("-o,--output", options->output, "Results in BOP's form (CSV)")->required();
   command->add_option("--threads", options->validation.threads, "Threads; the result does not depend on them")
@@ -157,7 +159,8 @@ void add_validate_command(CLI::App& command_line, Status& outcome) {
       "Example:\n"
       "  graspd bank compile --bop /data/synth_dev -o banks\n"
       "  graspd validate --bop /data/synth_dev --split val --banks banks -o results.csv\n"
-      "  graspd validate --bop /data/synth_dev --split val --banks banks -o results.csv --explain");
+      "  graspd validate --bop /data/synth_dev --split val --banks banks -o results.csv --explain\n"
+      "  graspd validate --bop /data/ipd --split val --sensor photoneo --banks banks -o results.csv");
   command->callback([options, &outcome] { outcome = run_validation(*options); });
 }
 

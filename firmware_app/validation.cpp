@@ -33,7 +33,7 @@ struct DataSet {
 
 Result<DataSet> open_data_set(const ValidationOptions& options) {
   DataSet data;
-  Result<std::vector<EvaluationImage>> images = read_evaluation_images(options.root, options.split);
+  Result<std::vector<EvaluationImage>> images = read_evaluation_images(options.root, options.split, options.sensor);
   if (!images.ok()) return images.status();
   data.images = std::move(images).value();
   if (!options.images.empty()) {
@@ -152,7 +152,7 @@ Result<Validation> validate(const ValidationOptions& options,
              "scene " + std::to_string(image.scene) + ", image " + std::to_string(image.image));
     if (validation.images == 0 || static_cast<std::uint32_t>(scene.scene_id) != image.scene) {
       Result<BopScene> read =
-          read_bop_scene(bop_scene_folder(options.root, options.split, static_cast<int>(image.scene)));
+          read_bop_scene(bop_scene_folder(options.root, options.split, static_cast<int>(image.scene)), options.sensor);
       if (!read.ok()) return read.status();
       scene = std::move(read).value();
     }

@@ -18,6 +18,7 @@ namespace graspd {
 struct ValidationOptions {
   std::string root;            ///< A BOP data set.
   std::string split;           ///< Its folder of scenes; what to look for is as read_bop_targets says.
+  std::string sensor;          ///< Whose files to read, where scenes hold those of several; empty: they do not.
   std::string bank_folder;     ///< Holds obj_000001.bank and so on.
   std::string picture_folder;  ///< Where annotated pictures go; empty: nowhere.
   std::vector<int> images;     ///< Numbers of the images to look at in each scene; empty: all.

@@ -125,14 +125,21 @@ fs::path bop_scene_folder(const fs::path& root, const std::string& split, int sc
   return root / split / bop_number(scene_id);
 }
 
-bool is_bop_scene(const fs::path& folder) { return is_there(folder / "scene_camera.json"); }
+std::string bop_name(const std::string& stem, const std::string& sensor, const std::string& ending) {
+  return stem + (sensor.empty() ? "" : "_" + sensor) + ending;
+}
 
-Result<BopScene> read_bop_scene(const fs::path& folder) {
-  const fs::path path = folder / "scene_camera.json";
+bool is_bop_scene(const fs::path& folder, const std::string& sensor) {
+  return is_there(folder / bop_name("scene_camera", sensor, ".json"));
+}
+
+Result<BopScene> read_bop_scene(const fs::path& folder, const std::string& sensor) {
+  const fs::path path = folder / bop_name("scene_camera", sensor, ".json");
   const Result<nlohmann::json> json = read_json(path);
   if (!json.ok()) return json.status();
   BopScene scene;
   scene.folder = folder;
+  scene.sensor = sensor;
   const fs::path plain = folder.lexically_normal();
   const fs::path& last = plain.has_filename() ? plain : plain.parent_path();
   scene.scene_id = std::max(number_of(last.filename().string()), 0);
@@ -144,9 +151,9 @@ Result<BopScene> read_bop_scene(const fs::path& folder) {
   return scene;
 }
 
-Result<std::vector<BopInstance>> read_bop_ground_truth(const fs::path& scene_folder) {
-  const fs::path path = scene_folder / "scene_gt.json";
-  const fs::path info_path = scene_folder / "scene_gt_info.json";
+Result<std::vector<BopInstance>> read_bop_ground_truth(const fs::path& scene_folder, const std::string& sensor) {
+  const fs::path path = scene_folder / bop_name("scene_gt", sensor, ".json");
+  const fs::path info_path = scene_folder / bop_name("scene_gt_info", sensor, ".json");
   const Result<nlohmann::json> json = read_json(path);
   if (!json.ok()) return json.status();
   const Result<nlohmann::json> info = is_there(info_path) ? read_json(info_path) : nlohmann::json::object();
@@ -235,9 +242,10 @@ Result<std::vector<BopModel>> read_bop_models(const fs::path& root) {
 Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id, const fs::path& empty_file) {
   const BopImage* const image = scene.find(im_id);
   if (image == nullptr) {
-    return Status::format(StatusCode::bad_file, "%s: no image %d", (scene.folder / "scene_camera.json").c_str(), im_id);
+    return Status::format(StatusCode::bad_file, "%s: no image %d",
+                          (scene.folder / bop_name("scene_camera", scene.sensor, ".json")).c_str(), im_id);
   }
-  const fs::path stem = scene.folder / "depth" / bop_number(im_id);
+  const fs::path stem = scene.folder / bop_name("depth", scene.sensor) / bop_number(im_id);
   const fs::path path = find_depth_file(stem);
   if (path.empty()) {
     return Status::format(StatusCode::bad_file, "%s.png: no such file (nor .tif or .tiff)", stem.c_str());
@@ -248,9 +256,10 @@ Result<LoadedFrame> load_bop_frame(const BopScene& scene, int im_id, const fs::p
   const Status read = load_depth(path, image->depth_scale, frame.camera, frame.depth);
   if (!read.ok()) return read;
   if (Status measured = check_measured(frame.depth, path); !measured.ok()) return measured;
+  const fs::path empty_folder = scene.folder / bop_name("empty", scene.sensor);
   fs::path empty_path = empty_file;
-  if (empty_path.empty()) empty_path = find_depth_file(scene.folder / "empty" / bop_number(im_id));
-  if (empty_path.empty()) empty_path = find_depth_file(scene.folder / "empty" / bop_number(0));
+  if (empty_path.empty()) empty_path = find_depth_file(empty_folder / bop_number(im_id));
+  if (empty_path.empty()) empty_path = find_depth_file(empty_folder / bop_number(0));
   if (!empty_path.empty()) {
     const Status read_empty = load_depth(empty_path, image->depth_scale, frame.camera, frame.empty_depth);
     if (!read_empty.ok()) return read_empty;

@@ -21,9 +21,11 @@ struct BopImage {
   std::optional<RigidTransform> camera_from_world;  ///< When scene_camera.json gives it.
 };
 
-/// A scene: a folder with scene_camera.json and depth/.
+/// A scene: a folder with scene_camera.json and depth/. Of a data set of several sensors the files of one of them:
+/// scene_camera_photoneo.json, scene_gt_photoneo.json and depth_photoneo/.
 struct BopScene {
   std::filesystem::path folder;
+  std::string sensor;            ///< The ending of these names, as photoneo; empty: they have none.
   int scene_id = 0;              ///< The number that the folder is named by.
   std::vector<BopImage> images;  ///< By rising im_id.
 
@@ -72,20 +74,24 @@ struct BopResult {
 [[nodiscard]] std::filesystem::path bop_scene_folder(const std::filesystem::path& root, const std::string& split,
                                                      int scene_id);
 
-/// True when `folder` holds a scene_camera.json.
-[[nodiscard]] bool is_bop_scene(const std::filesystem::path& folder);
+/// The name of a file or folder of a scene, as it is or with the sensor's: scene_gt_photoneo.json.
+[[nodiscard]] std::string bop_name(const std::string& stem, const std::string& sensor, const std::string& ending = "");
+
+/// True when `folder` holds a scene_camera.json (of `sensor`).
+[[nodiscard]] bool is_bop_scene(const std::filesystem::path& folder, const std::string& sensor = "");
 
 /// Reads scene_camera.json. Like all functions here it fails with bad_file, naming file and field.
-[[nodiscard]] Result<BopScene> read_bop_scene(const std::filesystem::path& folder);
+[[nodiscard]] Result<BopScene> read_bop_scene(const std::filesystem::path& folder, const std::string& sensor = "");
 
 /// Reads scene_gt.json and, when it is there, scene_gt_info.json; by rising im_id, in the file's order.
-[[nodiscard]] Result<std::vector<BopInstance>> read_bop_ground_truth(const std::filesystem::path& scene_folder);
+[[nodiscard]] Result<std::vector<BopInstance>> read_bop_ground_truth(const std::filesystem::path& scene_folder,
+                                                                     const std::string& sensor = "");
 
 /// What to look for in the images of `split`, by scene, image and object: what `root`/`split`_targets_bop19.json lists;
 /// else, of test_primesense say, test_targets_bop19.json; else every object of the ground truth of `root`/`split` of
 /// which a tenth or more is visible, which is what BOP lists.
 [[nodiscard]] Result<std::vector<BopTarget>> read_bop_targets(const std::filesystem::path& root,
-                                                              const std::string& split);
+                                                              const std::string& split, const std::string& sensor = "");
 
 /// Reads models_info.json of `root`/models, or else of models_cad, models_eval or models_reconst; by rising obj_id.
 /// Every mesh file must be there.

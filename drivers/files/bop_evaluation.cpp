@@ -35,11 +35,11 @@ std::map<std::string, std::string> read_levels(const fs::path& path) {
   return levels;
 }
 
-Result<SceneNotes> read_notes(const fs::path& folder) {
+Result<SceneNotes> read_notes(const fs::path& folder, const std::string& sensor) {
   SceneNotes notes;
-  notes.annotated = is_there(folder / "scene_gt.json");
+  notes.annotated = is_there(folder / bop_name("scene_gt", sensor, ".json"));
   if (notes.annotated) {
-    Result<std::vector<BopInstance>> instances = read_bop_ground_truth(folder);
+    Result<std::vector<BopInstance>> instances = read_bop_ground_truth(folder, sensor);
     if (!instances.ok()) return instances.status();
     notes.instances = std::move(instances).value();
   }
@@ -81,15 +81,16 @@ Result<std::vector<EvaluationPart>> read_evaluation_parts(const fs::path& root) 
   return parts;
 }
 
-Result<std::vector<EvaluationImage>> read_evaluation_images(const fs::path& root, const std::string& split) {
-  const Result<std::vector<BopTarget>> targets = read_bop_targets(root, split);
+Result<std::vector<EvaluationImage>> read_evaluation_images(const fs::path& root, const std::string& split,
+                                                            const std::string& sensor) {
+  const Result<std::vector<BopTarget>> targets = read_bop_targets(root, split, sensor);
   if (!targets.ok()) return targets.status();
   std::map<std::pair<int, int>, EvaluationImage> images;
   std::map<int, SceneNotes> scenes;
   for (const BopTarget& target : targets.value()) {
     auto notes = scenes.find(target.scene_id);
     if (notes == scenes.end()) {
-      Result<SceneNotes> read = read_notes(bop_scene_folder(root, split, target.scene_id));
+      Result<SceneNotes> read = read_notes(bop_scene_folder(root, split, target.scene_id), sensor);
       if (!read.ok()) return read.status();
       notes = scenes.emplace(target.scene_id, std::move(read).value()).first;
     }

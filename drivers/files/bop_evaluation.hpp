@@ -17,6 +17,7 @@ namespace graspd {
 /// no estimates yet; a scene without scene_gt.json is not annotated. The level comes from
 /// scene_meta.json where there is one. Fails with bad_file.
 [[nodiscard]] Result<std::vector<EvaluationImage>> read_evaluation_images(const std::filesystem::path& root,
-                                                                          const std::string& split);
+                                                                          const std::string& split,
+                                                                          const std::string& sensor = "");
 
 }  // namespace graspd

@@ -43,21 +43,22 @@ Result<std::vector<BopTarget>> read_targets(const fs::path& path) {
 }
 
 /// The annotated scenes of a split, by number.
-std::map<int, fs::path> annotated_scenes(const fs::path& folder) {
+std::map<int, fs::path> annotated_scenes(const fs::path& folder, const std::string& sensor) {
   std::map<int, fs::path> scenes;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
     if (name.size() != 6 || name.find_first_not_of("0123456789") != std::string::npos) continue;
-    if (is_there(entry.path() / "scene_gt.json")) scenes.emplace(std::stoi(name), entry.path());
+    if (is_there(entry.path() / bop_name("scene_gt", sensor, ".json"))) scenes.emplace(std::stoi(name), entry.path());
   }
   return scenes;
 }
 
-Result<std::vector<BopTarget>> targets_of_ground_truth(const std::map<int, fs::path>& scenes, const fs::path& folder) {
+Result<std::vector<BopTarget>> targets_of_ground_truth(const std::map<int, fs::path>& scenes, const fs::path& folder,
+                                                       const std::string& sensor) {
   std::vector<BopTarget> targets;
   for (const auto& [scene_id, path] : scenes) {
-    const Result<std::vector<BopInstance>> instances = read_bop_ground_truth(path);
+    const Result<std::vector<BopInstance>> instances = read_bop_ground_truth(path, sensor);
     if (!instances.ok()) return instances.status();
     std::map<std::pair<int, int>, int> counts;
     for (const BopInstance& instance : instances.value()) {
@@ -75,11 +76,13 @@ Result<std::vector<BopTarget>> targets_of_ground_truth(const std::map<int, fs::p
 
 }  // namespace
 
-Result<std::vector<BopTarget>> read_bop_targets(const fs::path& root, const std::string& split) {
+Result<std::vector<BopTarget>> read_bop_targets(const fs::path& root, const std::string& split,
+                                                const std::string& sensor) {
   const fs::path path = targets_file(root, split);
-  const std::map<int, fs::path> scenes = is_there(path) ? std::map<int, fs::path>{} : annotated_scenes(root / split);
+  const std::map<int, fs::path> scenes =
+      is_there(path) ? std::map<int, fs::path>{} : annotated_scenes(root / split, sensor);
   Result<std::vector<BopTarget>> targets =
-      scenes.empty() ? read_targets(path) : targets_of_ground_truth(scenes, root / split);
+      scenes.empty() ? read_targets(path) : targets_of_ground_truth(scenes, root / split, sensor);
   if (!targets.ok()) return targets.status();
   std::sort(targets.value().begin(), targets.value().end(), [](const BopTarget& a, const BopTarget& b) {
     return std::tie(a.scene_id, a.im_id, a.obj_id) < std::tie(b.scene_id, b.im_id, b.obj_id);

@@ -45,17 +45,23 @@ Status name_file(const fs::path& path, const Status& status) {
 /// The BOP scene and image that a depth image belongs to.
 struct BopPlace {
   fs::path scene_folder;
+  std::string sensor;
   int im_id = 0;
+  bool of_empty_bin = false;
 };
 
 std::optional<BopPlace> find_bop_place(const fs::path& path) {
-  const fs::path scene_folder = folder_of(path).parent_path();
-  if (!is_bop_scene(scene_folder)) return std::nullopt;
+  const fs::path folder = folder_of(path);
+  const fs::path scene_folder = folder.parent_path();
+  const std::string name = folder.filename().string();
+  const std::size_t kind_length = name.find('_');
+  const std::string sensor = kind_length == std::string::npos ? "" : name.substr(kind_length + 1);
+  if (!is_bop_scene(scene_folder, sensor)) return std::nullopt;
   const std::string stem = path.stem().string();
   int im_id = 0;
   const auto [stop, error] = std::from_chars(stem.data(), stem.data() + stem.size(), im_id);
   if (error != std::errc() || stop != stem.data() + stem.size()) return std::nullopt;
-  return BopPlace{scene_folder, im_id};
+  return BopPlace{scene_folder, sensor, im_id, name.substr(0, kind_length) == "empty"};
 }
 
 fs::path find_camera_file(const fs::path& path) {
@@ -90,14 +96,14 @@ Result<LoadedFrame> load_image(const fs::path& path, const FrameFileOptions& opt
 }
 
 Result<LoadedFrame> load_from_scene(const BopPlace& place, const FrameFileOptions& options) {
-  const Result<BopScene> scene = read_bop_scene(place.scene_folder);
+  const Result<BopScene> scene = read_bop_scene(place.scene_folder, place.sensor);
   if (!scene.ok()) return scene.status();
   return load_bop_frame(scene.value(), place.im_id, options.empty_file);
 }
 
 /// The frame of the empty bin that lies in the folder empty/ of a scene: its depth is as the scene's first image.
 Result<LoadedFrame> load_empty_of_scene(const BopPlace& place, const fs::path& path) {
-  const Result<BopScene> scene = read_bop_scene(place.scene_folder);
+  const Result<BopScene> scene = read_bop_scene(place.scene_folder, place.sensor);
   if (!scene.ok()) return scene.status();
   const BopImage& image = scene.value().images.front();
   LoadedFrame frame;
@@ -134,8 +140,7 @@ Result<LoadedFrame> load_any(const fs::path& path, const FrameFileOptions& optio
     case FrameKind::image: {
       const std::optional<BopPlace> place = find_bop_place(path);
       if (place && options.camera_file.empty()) {
-        const bool empty = folder_of(path).filename() == "empty";
-        return empty ? load_empty_of_scene(*place, path) : load_from_scene(*place, options);
+        return place->of_empty_bin ? load_empty_of_scene(*place, path) : load_from_scene(*place, options);
       }
       return load_image(path, options);
     }

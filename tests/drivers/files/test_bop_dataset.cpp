@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/files/bop_dataset.hpp"
+#include "drivers/files/load_frame.hpp"
 #include "drivers/files/whole_file.hpp"
 #include "tests/drivers/files/bop_scene.hpp"
 
@@ -164,6 +165,32 @@ TEST_F(BopDataset, BadModelsNameObjectAndField) {
   EXPECT_THAT(changed("[[-1,0,0,4,", "[[1,0,0,4,"), HasSubstr("not a rigid transform"));
   EXPECT_THAT(changed("[0, 0, 2]", "[0, 0, 0]"), HasSubstr("symmetries_continuous: axis has no length"));
   EXPECT_THAT(changed("\"2\": {", "\"5\": {"), HasSubstr("obj_000005.ply: no such file"));
+}
+
+TEST_F(BopDataset, FilesOfOneSensorOfSeveral) {
+  for (const char* name : {"depth", "empty"})
+    fs::rename(folder_.scene() / name, folder_.scene() / bop_name(name, "far"));
+  for (const char* name : {"scene_camera", "scene_gt", "scene_gt_info"}) {
+    fs::rename(folder_.scene() / bop_name(name, "", ".json"), folder_.scene() / bop_name(name, "far", ".json"));
+  }
+  fs::remove(folder_.root() / "val_targets_bop19.json");
+  EXPECT_FALSE(is_bop_scene(folder_.scene()));
+  const Result<BopScene> scene = read_bop_scene(folder_.scene(), "far");
+  ASSERT_TRUE(scene.ok()) << scene.status().message();
+  Result<LoadedFrame> frame = load_bop_frame(scene.value(), 7);
+  ASSERT_TRUE(frame.ok()) << frame.status().message();
+  EXPECT_FLOAT_EQ(frame.value().depth[1], 0.7F);
+  EXPECT_FLOAT_EQ(frame.value().empty_depth[1], 0.8F);
+  EXPECT_EQ(read_bop_targets(folder_.root(), "val", "far").value().front().inst_count, 2);
+  EXPECT_THAT(refusal(read_bop_scene(folder_.scene(), "near")), HasSubstr("scene_camera_near.json: No such file"));
+
+  frame = load_frame(folder_.scene() / "depth_far" / "000007.png", {});
+  ASSERT_TRUE(frame.ok()) << frame.status().message();
+  EXPECT_FLOAT_EQ(frame.value().depth[1], 0.7F);
+  EXPECT_FLOAT_EQ(frame.value().camera.fy, 510.0F);
+  frame = load_frame(folder_.scene() / "empty_far" / "000000.png", {});
+  ASSERT_TRUE(frame.ok()) << frame.status().message();
+  EXPECT_FLOAT_EQ(frame.value().camera.fy, 400.0F);
 }
 
 TEST_F(BopDataset, FrameInMetresWithItsEmptyBin) {
