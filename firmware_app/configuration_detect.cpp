@@ -34,6 +34,7 @@ void read_match(SettingsTable table, DetectParameters& parameters) {
   table.read("twins", parameters.refine.twins, 0, 100);
   table.read("verify_tolerance", parameters.verify.tolerance, 0.05, 5);
   table.read("verify_blurred_tolerance", parameters.verify.blurred_tolerance, 0.05, 5);
+  table.read("verify_noise_tolerance", parameters.verify.noise_tolerance, 0, 10);
   table.read("minimum_measured", parameters.verify.minimum_measured, 0, 1);
   table.read("minimum_inside", parameters.verify.minimum_inside, 0, 1);
   table.read("minimum_purity", parameters.verify.minimum_purity, 0, 1);

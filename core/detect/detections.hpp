@@ -48,6 +48,7 @@ struct Evidence {
   float below = 0;      ///< Share of the model below the plane or inside accepted instances.
   float residual = 0;   ///< Root mean square distance of confirmed points, in voxels of the bank
   float misfit = 0;     ///< and as a share of what is tolerated of this sensor.
+  float leniency = 0;   ///< Natural logarithm of how many times as much is tolerated for the noise of the depth.
   float confirmed = 0;  ///< Area that confirms the model as seen from the sensor, in units.
 };
 

@@ -74,6 +74,7 @@ struct VerifyParameters {
   bool edges = true;                ///< False: the outline says nothing (ablation).
   float tolerance = 0.4F;           ///< Details: a model surface this close to the measured one is confirmed
   float blurred_tolerance = 1.67F;  ///< and this close when the sensor smears depth steps over nearly one.
+  float noise_tolerance = 2.0F;     ///< But always so many standard deviations of a depth.
   float minimum_measured = 0.2F;    ///< Share of the model that must have been measured at all to be judged.
   float minimum_inside = 0.4F;      ///< Share of the model's surface that must fall inside the image.
   float minimum_purity = 0.6F;      ///< Share of what the scene says of the model that must be in its favour.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/detect/depth_noise.hpp"
 #include "core/detect/edge_blur.hpp"
 #include "core/detect/normals.hpp"
 
@@ -87,6 +88,8 @@ Scene preprocess(const DepthFrame& frame, const DepthFrame& empty_bin, float det
     segment_foreground(static_cast<std::uint32_t>(cells), execution, workspace.segments, scene.map);
     if (execution.late()) return scene;
   }
+  scene.map.noise = measure_depth_noise(scene.map, execution, workspace.depths);
+  if (execution.late()) return scene;
   const int radius = std::clamp(static_cast<int>(std::ceil(0.5F * detail_cells)), 1, 4);
   fit_normals(radius, execution, scene.map);
   if (execution.late()) return scene;

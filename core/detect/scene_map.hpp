@@ -58,6 +58,7 @@ struct SceneMap {
   Camera camera;   ///< Of the map: one pixel is one cell.
   int stride = 1;  ///< Frame pixels along the edge of a cell.
   EdgeBlurs edge_blurs;
+  float noise = 0;  ///< Standard deviation (metres) of the depth of a cell.
   std::span<MapCell> cells;
 
   [[nodiscard]] MapCell& at(int u, int v) { return cells[camera.index(u, v)]; }

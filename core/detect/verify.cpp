@@ -137,6 +137,12 @@ float blur_of(const SceneMap& map, float detail) {
   return std::clamp((map.edge_blurs.width(detail) / detail - sharp) / (blurred - sharp), 0.0F, 1.0F);
 }
 
+float tolerance_without_noise(const SceneMap& map, const Bank& bank, const VerifyParameters& parameters) {
+  const float detail = bank.part->detail;
+  const float widest = std::max(parameters.tolerance, parameters.blurred_tolerance);
+  return (parameters.tolerance + blur_of(map, detail) * (widest - parameters.tolerance)) * detail;
+}
+
 bool touches_border(const ImageRectangle& rectangle, const Camera& camera) {
   return rectangle.left == 0 || rectangle.top == 0 || rectangle.left + rectangle.width == camera.width ||
          rectangle.top + rectangle.height == camera.height;
@@ -145,9 +151,7 @@ bool touches_border(const ImageRectangle& rectangle, const Camera& camera) {
 }  // namespace
 
 float surface_tolerance(const SceneMap& map, const Bank& bank, const VerifyParameters& parameters) {
-  const float detail = bank.part->detail;
-  const float widest = std::max(parameters.tolerance, parameters.blurred_tolerance);
-  return (parameters.tolerance + blur_of(map, detail) * (widest - parameters.tolerance)) * detail;
+  return std::max(tolerance_without_noise(map, bank, parameters), parameters.noise_tolerance * map.noise);
 }
 
 RenderedModel render_model(const SceneMap& map, const Bank& bank, const RigidTransform& camera_from_part,
@@ -245,6 +249,7 @@ Evidence gather_evidence(const SceneMap& map, const Bank& bank, const RenderedMo
   const float residual = confirmed > 0.0F ? std::sqrt(squares.total() / confirmed) : 0.0F;
   evidence.residual = residual / bank.part->sampling;
   evidence.misfit = residual / tolerance;
+  evidence.leniency = std::log(tolerance / tolerance_without_noise(map, bank, parameters));
   const float unit_cells = evidence_unit * bank.part->diameter / map.footprint(depths.total() / rendered);
   evidence.confirmed = confirmed / (unit_cells * unit_cells);
   evidence.gap = gap / (unit_cells * unit_cells);

@@ -21,7 +21,8 @@ struct RenderedModel {
 };
 
 /// How far (metres) a model surface and the measured one may lie apart: `parameters.tolerance` for sensors that keep
-/// depth steps sharp, up to `parameters.blurred_tolerance` for those that smear them, which bend surfaces too.
+/// depth steps sharp, up to `parameters.blurred_tolerance` for those that smear them, which bend surfaces too,
+/// and at least `parameters.noise_tolerance` deviations where depths are noisier than that.
 [[nodiscard]] float surface_tolerance(const SceneMap& map, const Bank& bank, const VerifyParameters& parameters);
 
 /// Renders the posed model into `storage`, the front and, when it holds both, the back. An empty

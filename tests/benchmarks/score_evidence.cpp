@@ -55,7 +55,7 @@ void print_row(BinKind kind, std::uint64_t seed, const Bank& bank, const Instanc
               bank.part->name.data(), hit, rejection_name(instance.rejection), static_cast<double>(instance.score),
               static_cast<double>(company));
   for (const float figure : {e.overlap, e.visible, e.purity, e.measured, e.inside, e.boundary, e.edge, e.decided,
-                             e.outline, e.lock, e.blur, e.gap, e.below, e.residual, e.misfit, e.confirmed})
+                             e.outline, e.lock, e.blur, e.gap, e.below, e.residual, e.misfit, e.leniency, e.confirmed})
     std::printf(",%.5g", static_cast<double>(figure));
   std::printf("\n");
 }
@@ -95,7 +95,7 @@ Status run(const Options& options) {
   }
   std::printf(
       "kind,bin,part,hit,rejection,score,company,overlap,visible,purity,measured,inside,boundary,edge,decided,"
-      "outline,lock,blur,gap,below,residual,misfit,confirmed\n");
+      "outline,lock,blur,gap,below,residual,misfit,leniency,confirmed\n");
   DetectionSession session;
   for (std::uint64_t seed = options.first; seed < options.first + options.count; ++seed) {
     for (std::size_t wanted = 0; wanted < parts.size(); ++wanted) {

@@ -128,6 +128,7 @@ TEST(ExampleConfiguration, ShowsTheDefaults) {
   GRASPD_COMPARE(detect.parameters.refine.twins);
   GRASPD_COMPARE(detect.parameters.verify.tolerance);
   GRASPD_COMPARE(detect.parameters.verify.blurred_tolerance);
+  GRASPD_COMPARE(detect.parameters.verify.noise_tolerance);
   GRASPD_COMPARE(detect.parameters.verify.minimum_measured);
   GRASPD_COMPARE(detect.parameters.verify.minimum_inside);
   GRASPD_COMPARE(detect.parameters.verify.minimum_purity);

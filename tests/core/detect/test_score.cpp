@@ -65,6 +65,9 @@ TEST(Score, FallsWithWhatSpeaksAgainstIt) {
   worse = base;
   worse.gap += 5.0F;
   EXPECT_LT(score_of(worse, 0.0F), score);
+  worse = base;
+  worse.leniency += 0.3F;
+  EXPECT_LT(score_of(worse, 0.0F), score);
 }
 
 /// How many times likelier a pose is when all of its outline agrees than when half of it does.
