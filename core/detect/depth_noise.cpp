@@ -7,7 +7,7 @@ namespace graspd {
 
 namespace {
 
-constexpr std::size_t enough_cells = 4096;
+constexpr float enough_cells = 4096.0F;
 constexpr std::size_t few_cells = 50;
 /// The median of the smaller of both second differences, for depths of deviation 1 that are independent.
 constexpr float median_of_smaller = 0.986F;
@@ -28,7 +28,7 @@ float second_difference(const SceneMap& map, int u, int v, int du, int dv) {
 
 float measure_depth_noise(const SceneMap& map, const Execution& execution, std::span<float> differences) {
   const std::size_t cells = std::min(map.cells.size(), differences.size());
-  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<float>(cells / enough_cells))));
+  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<float>(cells) / enough_cells)));
   std::size_t count = 0;
   for (int v = 1; v + 1 < map.camera.height; v += step) {
     if (execution.late()) return 0.0F;
