@@ -43,8 +43,8 @@ float log_odds_of(const Evidence& evidence, float company) {
   // Where the part is not in the frame, several poses of something like it are wrong together.
   const float sure_company = company * company * company * company;
   // Chance agrees within a tolerance the likelier the wider it is.
-  return -7.9F - evidence.leniency + 1.03F * log_odds(evidence.visible) - 0.56F * log_odds(evidence.measured) - 5.08F * evidence.misfit -
-         6.41F * sliding_misfit - (1.58F - 1.24F * blur) * std::log1p(evidence.gap) +
+  return -7.9F - evidence.leniency + 1.03F * log_odds(evidence.visible) - 0.56F * log_odds(evidence.measured) -
+         5.08F * evidence.misfit - 6.41F * sliding_misfit - (1.58F - 1.24F * blur) * std::log1p(evidence.gap) +
          2.01F * std::log1p(evidence.outline) + 1.77F * locked_surface + outline + 1.43F * sure_company;
 }
 
