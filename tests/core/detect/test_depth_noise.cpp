@@ -22,10 +22,10 @@ struct NoisySurface {
     map.camera = {width, height, 600.0F, 600.0F, 0.5F * static_cast<float>(width), 0.5F * static_cast<float>(height)};
     map.cells = cells;
     std::mt19937 random(7);
-    std::normal_distribution<float> noise(0.0F, deviation);
+    std::normal_distribution<float> noise;
     for (int v = 0; v < height; ++v) {
       for (int u = 0; u < width; ++u) {
-        const float z = depth(u, v) + (deviation > 0.0F ? noise(random) : 0.0F);
+        const float z = depth(u, v) + deviation * noise(random);
         map.at(u, v) = {};
         map.at(u, v).point = map.camera.point(static_cast<float>(u), static_cast<float>(v), z);
         map.at(u, v).foreground = 1;
